@@ -1,1 +1,8 @@
-//! spatial
+//! Order and search in space: Hilbert and BRIO order, bounding-volume hierarchy, k-d tree.
+//!
+//! The data are the caller's slices: nothing here moves or changes them, and every result is a permutation
+//! or a list of indices.
+#![forbid(unsafe_code)]
+
+pub mod brio;
+pub mod hilbert;
