@@ -1,2 +1,75 @@
-//! Orchestration.
-fn main() {}
+//! Orchestration: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask bench`. Uses no crate of the workspace.
+#![forbid(unsafe_code)]
+
+mod ci;
+mod readme;
+mod tidy;
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitCode};
+
+/// What a task returns: nothing, or why it failed.
+type Outcome = Result<(), String>;
+
+const USAGE: &str = "\
+usage: cargo xtask <task>
+
+  ci      format, clippy, rustdoc, tidy, and the test command of README.md
+  tidy    the checks of the house: floors, printing, lengths, citations, paths, fixtures
+";
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let words: Vec<&str> = arguments.iter().map(String::as_str).collect();
+    let outcome = match words.as_slice() {
+        ["ci"] => ci::run(&root()),
+        ["tidy"] => tidy::run(&root()),
+        _ => {
+            eprint!("{USAGE}");
+            return ExitCode::from(2);
+        }
+    };
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("error: {reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// The workspace's folder: the parent of this crate's.
+fn root() -> PathBuf {
+    let manifest = std::env::var_os("CARGO_MANIFEST_DIR").map(PathBuf::from);
+    match manifest.as_deref().and_then(Path::parent) {
+        Some(root) => root.to_path_buf(),
+        None => PathBuf::from("."),
+    }
+}
+
+/// Prints a command, runs it in `root`, and fails if it does.
+fn execute(root: &Path, environment: &[(&str, &str)], words: &[&str]) -> Outcome {
+    let shown: Vec<String> = environment
+        .iter()
+        .map(|(name, value)| format!("{name}=\"{value}\""))
+        .chain(words.iter().map(|word| (*word).to_owned()))
+        .collect();
+    eprintln!("+ {}", shown.join(" "));
+    let (program, arguments) = words.split_first().ok_or("an empty command")?;
+    let status = Command::new(program)
+        .args(arguments)
+        .envs(environment.iter().copied())
+        .current_dir(root)
+        .status()
+        .map_err(|error| format!("{program}: {error}"))?;
+    if status.success() {
+        Ok(())
+    } else {
+        Err(format!("`{}` failed: {status}", words.join(" ")))
+    }
+}
+
+/// The text of a file, with its name in the error.
+fn read(path: &Path) -> Result<String, String> {
+    std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
