@@ -1,4 +1,20 @@
-//! Signs of geometric determinants, right for every finite `f64`.
+//! Signs of geometric determinants, right for every finite `f64`, with ties broken by symbolic
+//! perturbation.
+//!
+//! The data are points, [`DVec2`] and [`DVec3`]; the verbs are [`orient2d`], [`orient3d`], [`incircle`] and
+//! [`insphere`], each of which returns a [`Sign`].
+//!
+//! ```
+//! use glam::DVec3;
+//! use pellicle_predicates::{Sign, insphere, lifted, orient3d};
+//!
+//! let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+//! assert_eq!(orient3d(a, b, c, d), Sign::Positive);
+//! assert_eq!(insphere(a, b, c, d, DVec3::splat(0.5)), Sign::Positive);
+//! // On the sphere: zero, unless a perturbation decides.
+//! assert_eq!(insphere(a, b, c, d, DVec3::ONE), Sign::Zero);
+//! assert_eq!(lifted::insphere(a, b, c, d, DVec3::ONE), Sign::Negative);
+//! ```
 //!
 //! # Orientation
 //!
@@ -13,82 +29,183 @@
 //!         /
 //!        b = x
 //! ```
+//!
+//! (The functions of Shewchuk 1997 have the other sign in space.)
+//!
+//! # Stages
+//!
+//! A call is decided by the first stage that can: a static filter when the points' box is known
+//! ([`StaticFilter`], [`StaticFilter2`]), a semi-static filter from the coordinate differences, exact 128-bit
+//! integers when the points lie on a coarse lattice, interval arithmetic, exact integers of any size. All
+//! but the last answer only what they are sure of, so the sign never depends on the stage. The feature
+//! `statistics` counts them.
+//!
+//! Coordinates must be finite: for NaN and infinity the sign means nothing (there is no panic).
 #![forbid(unsafe_code)]
 
 use glam::{DVec2, DVec3};
+use statistics::{Predicate, Stage, decided};
 
+mod determinant;
+mod exact;
+mod filter;
+mod integer;
+mod interval;
 mod sign;
-pub use sign::Sign;
 
 pub mod lifted;
+pub mod statistics;
+
+pub use filter::{StaticFilter, StaticFilter2};
+pub use sign::Sign;
+
+#[cfg(test)]
+mod tests;
 
 /// The sign of det[b − a, c − a]: positive when `a, b, c` turn counter-clockwise.
+///
+/// ```
+/// use glam::DVec2;
+/// use pellicle_predicates::{Sign, orient2d};
+///
+/// // Three points of a line with rounded coordinates: exactly where they are, not where they should be.
+/// let [a, b, c] = [0.1, 0.2, 0.3].map(DVec2::splat);
+/// assert_eq!(orient2d(a, b, c), Sign::Zero);
+/// assert_eq!(orient2d(a, b, DVec2::new(0.3, 0.1 + 0.2)), Sign::Positive);
+/// ```
+#[inline]
 pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Sign {
-    let p = |v: DVec2| robust::Coord { x: v.x, y: v.y };
-    Sign::of(robust::orient2d(p(a), p(b), p(c)))
+    match filter::orient2d(a, b, c) {
+        Some(sign) => {
+            decided(Predicate::Orient2d, Stage::SemiStatic);
+            sign
+        }
+        None => unfiltered::orient2d(a, b, c),
+    }
 }
 
 /// The sign of det[b − a, c − a, d − a]: positive for (origin, x, y, z).
+///
+/// ```
+/// use glam::DVec3;
+/// use pellicle_predicates::{Sign, orient3d};
+///
+/// let largest = f64::MAX;
+/// let [a, b] = [DVec3::splat(-largest), DVec3::new(largest, -largest, -largest)];
+/// let [c, d] = [DVec3::new(-largest, largest, -largest), DVec3::new(-largest, -largest, largest)];
+/// assert_eq!(orient3d(a, b, c, d), Sign::Positive);
+/// ```
+#[inline]
 pub fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
-    -Sign::of(robust::orient3d(coord(a), coord(b), coord(c), coord(d)))
-}
-
-/// Positive when `d` lies inside the circle through `a, b, c`, which turn counter-clockwise.
-pub fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
-    let p = |v: DVec2| robust::Coord { x: v.x, y: v.y };
-    Sign::of(robust::incircle(p(a), p(b), p(c), p(d)))
-}
-
-/// Positive when `e` lies inside the sphere through `a, b, c, d`, which are positively oriented.
-pub fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
-    -Sign::of(robust::insphere(
-        coord(a),
-        coord(b),
-        coord(c),
-        coord(d),
-        coord(e),
-    ))
-}
-
-fn coord(v: DVec3) -> robust::Coord3D<f64> {
-    robust::Coord3D {
-        x: v.x,
-        y: v.y,
-        z: v.z,
-    }
-}
-
-/// Static filters for points inside a known box: each test costs one comparison.
-#[derive(Clone, Copy, Debug)]
-pub struct StaticFilter {
-    _private: (),
-}
-
-impl StaticFilter {
-    /// The filter for points inside the box from `min` to `max`.
-    pub fn from_bounds(min: DVec3, max: DVec3) -> Self {
-        let _ = (min, max);
-        Self { _private: () }
-    }
-
-    /// [`orient3d`] for points inside the box.
-    #[inline]
-    pub fn orient3d(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
-        orient3d(a, b, c, d)
-    }
-
-    /// [`insphere`] for points inside the box.
-    #[inline]
-    pub fn insphere(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
-        insphere(a, b, c, d, e)
-    }
-
-    /// [`lifted::insphere`] for points inside the box.
-    #[inline]
-    pub fn insphere_perturbed(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
-        match self.insphere(a, b, c, d, e) {
-            Sign::Zero => lifted::insphere_of_cospherical(a, b, c, d, e),
-            sign => sign,
+    match filter::orient3d(a, b, c, d) {
+        Some(sign) => {
+            decided(Predicate::Orient3d, Stage::SemiStatic);
+            sign
         }
+        None => unfiltered::orient3d(a, b, c, d),
+    }
+}
+
+/// Positive when `d` lies inside the circle through `a, b, c`, which turn counter-clockwise; the sign turns
+/// with their orientation.
+#[inline]
+pub fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+    match filter::incircle(a, b, c, d) {
+        Some(sign) => {
+            decided(Predicate::InCircle, Stage::SemiStatic);
+            sign
+        }
+        None => unfiltered::incircle(a, b, c, d),
+    }
+}
+
+/// Positive when `e` lies inside the sphere through `a, b, c, d`, which are positively oriented; the sign
+/// turns with their orientation.
+#[inline]
+pub fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+    match filter::insphere(a, b, c, d, e) {
+        Some(sign) => {
+            decided(Predicate::InSphere, Stage::SemiStatic);
+            sign
+        }
+        None => unfiltered::insphere(a, b, c, d, e),
+    }
+}
+
+/// The stages after the filters.
+mod unfiltered {
+    use super::{DVec2, DVec3, Predicate, Sign, Stage, decided, determinant, exact};
+    use crate::interval::Interval;
+
+    fn intervals<const D: usize, const N: usize>(
+        points: [[f64; D]; N],
+        to: [f64; D],
+    ) -> [[Interval; D]; N] {
+        let to = to.map(Interval::exactly);
+        points.map(|p| determinant::translated(&p.map(Interval::exactly), &to))
+    }
+
+    /// The answer of the first stage that has one.
+    #[inline(always)]
+    fn staged(predicate: Predicate, interval: Interval, exact: impl Fn() -> Sign) -> Sign {
+        if let Some(sign) = interval.sign() {
+            decided(predicate, Stage::Interval);
+            return sign;
+        }
+        decided(predicate, Stage::Exact);
+        exact()
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Sign {
+        staged(Predicate::Orient2d, interval_orient2d(a, b, c), || {
+            exact::orient2d(a, b, c)
+        })
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
+        staged(Predicate::Orient3d, interval_orient3d(a, b, c, d), || {
+            exact::orient3d(a, b, c, d)
+        })
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+        staged(Predicate::InCircle, interval_incircle(a, b, c, d), || {
+            exact::incircle(a, b, c, d)
+        })
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+        let interval = interval_insphere(a, b, c, d, e);
+        staged(Predicate::InSphere, interval, || {
+            exact::insphere(a, b, c, d, e)
+        })
+    }
+
+    pub(crate) fn interval_orient2d(a: DVec2, b: DVec2, c: DVec2) -> Interval {
+        let [a, b] = intervals([a, b].map(|p| p.to_array()), c.to_array());
+        determinant::orient2d(&a, &b)
+    }
+
+    pub(crate) fn interval_orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Interval {
+        let [a, b, c] = intervals([a, b, c].map(|p| p.to_array()), d.to_array());
+        determinant::orient3d(&a, &b, &c)
+    }
+
+    pub(crate) fn interval_incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Interval {
+        let [a, b, c] = intervals([a, b, c].map(|p| p.to_array()), d.to_array());
+        determinant::incircle(&a, &b, &c)
+    }
+
+    pub(crate) fn interval_insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Interval {
+        let [a, b, c, d] = intervals([a, b, c, d].map(|p| p.to_array()), e.to_array());
+        determinant::insphere(&a, &b, &c, &d)
     }
 }

@@ -1,46 +1,111 @@
 //! Symbolic perturbation in the lifted dimension (Devillers and Teillaud 2011).
 //!
-//! The lift of every point is raised by a power of ε that grows with the point's lexicographic rank, so
-//! that the lexicographically largest of a cospherical set lies *outside* the sphere of the others.
+//! A point lies inside a sphere when its lift (p, |p|²) lies below the hyperplane through the lifts of the
+//! sphere's points. The perturbation raises the lift of the point of lexicographic rank i among n by
+//! ε^(n−i) and lets ε > 0 tend to zero. So the lexicographically largest of a cospherical set is raised
+//! most and lies *outside* the sphere of the others, the Delaunay triangulation depends on the point set
+//! alone, and since no point moves in space, no simplex of it is flat.
+//!
+//! Along the raised coordinate the determinant is linear. With five cospherical points its sign is that of
+//! the first of these coefficients, from the largest point down, that is not zero:
+//!
+//! ```text
+//! raised   a                b                c                d                e
+//! factor   o(e, b, c, d)    o(a, e, c, d)    o(a, b, e, d)    o(a, b, c, e)    −o(a, b, c, d)
+//! ```
+//!
+//! The test in a plane needs no function of its own: when `a, b, c, e` are coplanar, `insphere(a, b, c, d,
+//! e)` with `a, b, c, d` positive says whether `e` lies inside the circle through `a, b, c`, perturbed by
+//! these four points alone, for every `d` off their plane, because the factor of `d` vanishes.
 
-use crate::{Sign, insphere as exact_insphere, orient3d};
-use glam::DVec3;
+use crate::{
+    Sign, incircle as plain_incircle, insphere as plain_insphere, orient2d, orient3d,
+    statistics::{Predicate, Stage, decided},
+};
+use glam::{DVec2, DVec3};
 use std::cmp::Ordering;
 
-/// Compares by x, then y, then z.
+/// Compares by x, then y, then z; −0 and 0 are equal.
 #[inline]
 pub fn lexicographic(a: DVec3, b: DVec3) -> Ordering {
-    a.x.partial_cmp(&b.x)
-        .unwrap_or(Ordering::Equal)
-        .then(a.y.partial_cmp(&b.y).unwrap_or(Ordering::Equal))
-        .then(a.z.partial_cmp(&b.z).unwrap_or(Ordering::Equal))
+    compare(&a.to_array(), &b.to_array())
 }
 
-/// The perturbed in-sphere test; never zero for distinct points with `a, b, c, d` not coplanar.
+/// Compares by x, then y; −0 and 0 are equal.
+#[inline]
+pub fn lexicographic2d(a: DVec2, b: DVec2) -> Ordering {
+    compare(&a.to_array(), &b.to_array())
+}
+
+#[inline]
+fn compare(a: &[f64], b: &[f64]) -> Ordering {
+    a.partial_cmp(b).unwrap_or(Ordering::Equal)
+}
+
+/// The perturbed in-circle test: positive when `d` lies inside the circle through the counter-clockwise
+/// `a, b, c`. Never zero for distinct points with `a, b, c` not collinear.
+#[inline]
+pub fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+    match plain_incircle(a, b, c, d) {
+        Sign::Zero => incircle_of_cocircular(a, b, c, d),
+        sign => sign,
+    }
+}
+
+/// The perturbed in-sphere test: positive when `e` lies inside the sphere through the positively oriented
+/// `a, b, c, d`. Never zero for distinct points with `a, b, c, d` not coplanar.
+///
+/// ```
+/// use glam::DVec3;
+/// use pellicle_predicates::{Sign, lifted};
+///
+/// let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+/// // (1, 1, 1) completes the cube and is its largest corner: outside.
+/// assert_eq!(lifted::insphere(a, b, c, d, DVec3::ONE), Sign::Negative);
+/// ```
+#[inline]
 pub fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
-    match exact_insphere(a, b, c, d, e) {
+    match plain_insphere(a, b, c, d, e) {
         Sign::Zero => insphere_of_cospherical(a, b, c, d, e),
         sign => sign,
     }
 }
 
-/// The sign of the perturbation for five points already known to be cospherical.
+/// The sign of the perturbation for four points already known to be cocircular (or collinear).
 #[cold]
+#[inline(never)]
+pub fn incircle_of_cocircular(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+    decided(Predicate::InCircle, Stage::Perturbation);
+    let points = [a, b, c, d];
+    let mut order = [0, 1, 2, 3];
+    order.sort_unstable_by(|&i, &j| lexicographic2d(points[j], points[i]));
+    let factors = order.iter().map(|i| match i {
+        0 => orient2d(d, b, c),
+        1 => orient2d(a, d, c),
+        2 => orient2d(a, b, d),
+        _ => -orient2d(a, b, c),
+    });
+    first_nonzero(factors)
+}
+
+/// The sign of the perturbation for five points already known to be cospherical (or coplanar).
+#[cold]
+#[inline(never)]
 pub fn insphere_of_cospherical(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+    decided(Predicate::InSphere, Stage::Perturbation);
     let points = [a, b, c, d, e];
     let mut order = [0, 1, 2, 3, 4];
     order.sort_unstable_by(|&i, &j| lexicographic(points[j], points[i]));
-    for i in order {
-        let sign = match i {
-            0 => orient3d(e, b, c, d),
-            1 => orient3d(a, e, c, d),
-            2 => orient3d(a, b, e, d),
-            3 => orient3d(a, b, c, e),
-            _ => return -orient3d(a, b, c, d),
-        };
-        if sign != Sign::Zero {
-            return sign;
-        }
-    }
-    Sign::Zero
+    let factors = order.iter().map(|i| match i {
+        0 => orient3d(e, b, c, d),
+        1 => orient3d(a, e, c, d),
+        2 => orient3d(a, b, e, d),
+        3 => orient3d(a, b, c, e),
+        _ => -orient3d(a, b, c, d),
+    });
+    first_nonzero(factors)
+}
+
+fn first_nonzero(mut signs: impl Iterator<Item = Sign>) -> Sign {
+    signs.find(|&sign| sign != Sign::Zero).unwrap_or(Sign::Zero)
 }

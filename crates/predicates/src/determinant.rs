@@ -1,0 +1,85 @@
+//! The four determinants, each written once and evaluated over doubles, intervals, integers and
+//! polynomials alike.
+//!
+//! The arguments are vectors already translated by the last point of the predicate. The order of the
+//! operations matters: the filters' error bounds count the roundings along it.
+
+/// A commutative ring, or something that behaves like one up to rounding.
+pub(crate) trait Ring: Clone {
+    fn add(&self, other: &Self) -> Self;
+    fn sub(&self, other: &Self) -> Self;
+    fn mul(&self, other: &Self) -> Self;
+
+    #[inline(always)]
+    fn square(&self) -> Self {
+        self.mul(self)
+    }
+}
+
+impl Ring for f64 {
+    #[inline(always)]
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn sub(&self, other: &Self) -> Self {
+        self - other
+    }
+    #[inline(always)]
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+/// p − q, coordinate by coordinate.
+#[inline(always)]
+pub(crate) fn translated<R: Ring, const D: usize>(p: &[R; D], q: &[R; D]) -> [R; D] {
+    std::array::from_fn(|i| p[i].sub(&q[i]))
+}
+
+/// x₀y₁ − y₀x₁: the minor of two vectors in their first two coordinates.
+#[inline(always)]
+fn minor<R: Ring, const D: usize>(x: &[R; D], y: &[R; D]) -> R {
+    x[0].mul(&y[1]).sub(&y[0].mul(&x[1]))
+}
+
+/// det[a, b]: positive when a, b, 0 turn counter-clockwise.
+#[inline(always)]
+pub(crate) fn orient2d<R: Ring>(a: &[R; 2], b: &[R; 2]) -> R {
+    minor(a, b)
+}
+
+/// −det[a, b, c]: positive when (a, b, c, 0) is positively oriented.
+#[inline(always)]
+pub(crate) fn orient3d<R: Ring>(a: &[R; 3], b: &[R; 3], c: &[R; 3]) -> R {
+    let ba = minor(b, a);
+    let ac = minor(a, c);
+    let cb = minor(c, b);
+    (b[2].mul(&ac).add(&a[2].mul(&cb))).add(&c[2].mul(&ba))
+}
+
+/// |a|² det[b, c] + |b|² det[c, a] + |c|² det[a, b]: positive when 0 lies inside the circle through the
+/// counter-clockwise a, b, c.
+#[inline(always)]
+pub(crate) fn incircle<R: Ring>(a: &[R; 2], b: &[R; 2], c: &[R; 2]) -> R {
+    let lift = |p: &[R; 2]| p[0].square().add(&p[1].square());
+    (lift(a).mul(&minor(b, c)).add(&lift(b).mul(&minor(c, a)))).add(&lift(c).mul(&minor(a, b)))
+}
+
+/// Positive when 0 lies inside the sphere through the positively oriented a, b, c, d. The six minors in x
+/// and y are shared by the four determinants that weight the lifts.
+#[inline(always)]
+pub(crate) fn insphere<R: Ring>(a: &[R; 3], b: &[R; 3], c: &[R; 3], d: &[R; 3]) -> R {
+    let ab = minor(a, b);
+    let bc = minor(b, c);
+    let cd = minor(c, d);
+    let da = minor(d, a);
+    let ac = minor(a, c);
+    let bd = minor(b, d);
+    let abc = (a[2].mul(&bc).sub(&b[2].mul(&ac))).add(&c[2].mul(&ab));
+    let bcd = (b[2].mul(&cd).sub(&c[2].mul(&bd))).add(&d[2].mul(&bc));
+    let cda = (c[2].mul(&da).add(&d[2].mul(&ac))).add(&a[2].mul(&cd));
+    let dab = (d[2].mul(&ab).add(&a[2].mul(&bd))).add(&b[2].mul(&da));
+    let lift = |p: &[R; 3]| (p[0].square().add(&p[1].square())).add(&p[2].square());
+    (lift(c).mul(&dab).sub(&lift(d).mul(&abc))).add(&(lift(a).mul(&bcd).sub(&lift(b).mul(&cda))))
+}

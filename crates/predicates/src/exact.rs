@@ -1,0 +1,59 @@
+//! The exact stage: signs of the determinants over integers.
+//!
+//! All coordinates of a call are multiples of one power of two, the smallest last bit among them. Divided
+//! by it they are integers, and the sign of a homogeneous determinant does not change.
+//!
+//! A foreign expansion arithmetic is right only while no product overflows or underflows, so every call
+//! would need a range check and a second route beside it. Integers have no such range, need no allocation
+//! beyond a few limbs in the common case, and are the same code for all scales.
+
+use crate::{
+    Sign, determinant,
+    integer::{Integer, Parts},
+};
+use glam::{DVec2, DVec3};
+
+/// The coordinates as integers, in units of their smallest last bit.
+fn integers<const D: usize, const N: usize>(points: [[f64; D]; N]) -> [[Integer; D]; N] {
+    let parts = points.map(|p| p.map(Parts::of));
+    let nonzero = parts.iter().flatten().filter(|p| p.mantissa != 0);
+    let unit = nonzero.map(|p| p.exponent).min().unwrap_or(0);
+    parts.map(|p| {
+        p.map(|c| match c.mantissa {
+            0 => Integer::ZERO,
+            mantissa => Integer::shifted(mantissa, (c.exponent - unit) as u32),
+        })
+    })
+}
+
+#[cold]
+#[inline(never)]
+pub(crate) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Sign {
+    let [a, b, c] = integers([a, b, c].map(|p| p.to_array()));
+    let [a, b] = [a, b].map(|p| determinant::translated(&p, &c));
+    determinant::orient2d(&a, &b).sign()
+}
+
+#[cold]
+#[inline(never)]
+pub(crate) fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
+    let [a, b, c, d] = integers([a, b, c, d].map(|p| p.to_array()));
+    let [a, b, c] = [a, b, c].map(|p| determinant::translated(&p, &d));
+    determinant::orient3d(&a, &b, &c).sign()
+}
+
+#[cold]
+#[inline(never)]
+pub(crate) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+    let [a, b, c, d] = integers([a, b, c, d].map(|p| p.to_array()));
+    let [a, b, c] = [a, b, c].map(|p| determinant::translated(&p, &d));
+    determinant::incircle(&a, &b, &c).sign()
+}
+
+#[cold]
+#[inline(never)]
+pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+    let [a, b, c, d, e] = integers([a, b, c, d, e].map(|p| p.to_array()));
+    let [a, b, c, d] = [a, b, c, d].map(|p| determinant::translated(&p, &e));
+    determinant::insphere(&a, &b, &c, &d).sign()
+}

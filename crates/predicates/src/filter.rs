@@ -1,0 +1,421 @@
+//! Floating-point filters: the determinant in doubles, trusted when it exceeds a bound on its error.
+//!
+//! # The error bounds
+//!
+//! Let u = 2⁻⁵³, and let X, Y, Z bound the computed coordinate differences |dx|, |dy|, |dz|. Without
+//! underflow and overflow every operation returns its exact result times a factor 1 + δ, |δ| ≤ u. Multiply
+//! a determinant out: each monomial of the computed value is the exact monomial times a product of k such
+//! factors or their inverses, and that product is 1 + θ with |θ| ≤ γ = ku / (1 − ku) (Higham 2002, lemma
+//! 3.1). Here k counts the roundings on the way from the coordinates to the result, the differences
+//! themselves included. So
+//!
+//! ```text
+//! |computed − exact| ≤ γ · Σ |monomials of the computed differences|
+//! ```
+//!
+//! | determinant | differences | minor | 3×3 | lift | product and sum | k | Σ of the monomials | bound |
+//! |---|---|---|---|---|---|---|---|---|
+//! | orient2d | 2 | 1 · and 1 − | | | | 4 | 2 XY | 8u XY |
+//! | orient3d | 3 | 1 · and 1 − | 1 · and 2 + | | | 8 | 6 XYZ | 48u XYZ |
+//! | incircle | 4 | 1 · and 1 − | | 1 · and 1 + | 1 · and 2 + | 11 | 3·2 XY (X² + Y²) | 66u XY (X² + Y²) |
+//! | insphere | 5 | 1 · and 1 − | 1 · and 2 + | 1 · and 2 + | 1 · and 2 + | 16 | 4·6 XYZ (X² + Y² + Z²) | 384u XYZ (X² + Y² + Z²) |
+//!
+//! With |x|, |y| ≤ M, X = Y = 2M and the first line reads 2⁻⁴⁸ M², the static bound of Teillaud's lecture
+//! on robustness.
+//!
+//! *Slack.* The factors below are larger by 1/400 or more. That covers the difference between γ and ku (a
+//! relative 2⁻⁴⁸), the rounding of the bound itself (eight operations) and underflow, as follows.
+//!
+//! *Underflow and overflow.* The filters stand aside unless 2⁻¹⁹⁰ ≤ X, Y, Z ≤ 2¹⁹⁰. Then no intermediate
+//! result exceeds 72 · 2⁹⁵⁰, and the bound is at least 2⁻⁴⁵ · 2⁻⁹⁵⁰ = 2⁻⁹⁹⁵. A product that underflows is
+//! wrong by at most 2⁻¹⁰⁷⁵ more. Such an error in a minor (12 products of two factors) reaches the result
+//! multiplied by at most Z (X² + Y² + Z²) times a small count; relative to the bound, which has the same
+//! factors, that is 2⁻¹⁰⁷⁵⁺⁶ / (2⁻⁴⁵ XY) ≤ 2⁻⁶⁴⁴. The same holds for the lifts and the 3×3 determinants, and
+//! the last four products add 2⁻¹⁰⁷³, a relative 2⁻⁷⁸. Sums and differences never underflow wrongly.
+//!
+//! # Static and semi-static
+//!
+//! The bounds grow with X, Y, Z, so any upper bounds of the computed differences will do: the largest of
+//! the call (semi-static; Meyer and Pion 2008), or the extents of a box that holds all points (static):
+//! rounding is monotone, so no computed difference exceeds the computed extent.
+
+use crate::{
+    Sign, determinant, lifted,
+    statistics::{Predicate, Stage, decided},
+};
+use glam::{DVec2, DVec3};
+
+/// u · 2⁰: the largest relative error of one operation.
+const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+const ORIENT2D: f64 = 8.02 * UNIT_ROUNDOFF;
+const ORIENT3D: f64 = 48.12 * UNIT_ROUNDOFF;
+const INCIRCLE: f64 = 66.17 * UNIT_ROUNDOFF;
+const INSPHERE: f64 = 385.0 * UNIT_ROUNDOFF;
+
+/// 2⁻¹⁹⁰ and 2¹⁹⁰, between which the bounds above hold.
+const TINY: f64 = f64::from_bits((1023 - 190) << 52);
+const HUGE: f64 = f64::from_bits((1023 + 190) << 52);
+
+#[inline(always)]
+fn in_range<const D: usize>(extents: [f64; D]) -> bool {
+    extents.iter().all(|&e| (TINY..=HUGE).contains(&e))
+}
+
+#[inline(always)]
+fn orient2d_bound([x, y]: [f64; 2]) -> f64 {
+    ORIENT2D * x * y
+}
+
+#[inline(always)]
+fn orient3d_bound([x, y, z]: [f64; 3]) -> f64 {
+    ORIENT3D * x * y * z
+}
+
+#[inline(always)]
+fn incircle_bound([x, y]: [f64; 2]) -> f64 {
+    INCIRCLE * x * y * (x * x + y * y)
+}
+
+#[inline(always)]
+fn insphere_bound([x, y, z]: [f64; 3]) -> f64 {
+    INSPHERE * x * y * z * (x * x + y * y + z * z)
+}
+
+/// The sign of `value` if it is surely that of the exact determinant.
+#[inline(always)]
+fn certain(value: f64, bound: f64) -> Option<Sign> {
+    if value.abs() > bound {
+        Some(if value > 0.0 {
+            Sign::Positive
+        } else {
+            Sign::Negative
+        })
+    } else {
+        None
+    }
+}
+
+/// Why the semi-static filter gave no bound.
+enum Unfit {
+    /// All points agree in one coordinate: every determinant is zero.
+    Flat,
+    /// Too small or too large for the error analysis.
+    OutOfRange,
+}
+
+/// The largest |difference| along each axis.
+#[inline(always)]
+fn spreads<const D: usize, const N: usize>(vectors: &[[f64; D]; N]) -> Result<[f64; D], Unfit> {
+    let mut spreads = [0.0; D];
+    for vector in vectors {
+        for (spread, coordinate) in spreads.iter_mut().zip(vector) {
+            *spread = f64::max(*spread, coordinate.abs());
+        }
+    }
+    if in_range(spreads) {
+        Ok(spreads)
+    } else if spreads.contains(&0.0) {
+        // Two doubles have the difference zero only when they are equal.
+        Err(Unfit::Flat)
+    } else {
+        Err(Unfit::OutOfRange)
+    }
+}
+
+/// The semi-static filter: a value, and the bound that belongs to the spreads of its vectors.
+#[inline(always)]
+fn semi_static<const D: usize, const N: usize>(
+    vectors: &[[f64; D]; N],
+    bound: impl Fn([f64; D]) -> f64,
+    value: impl Fn() -> f64,
+) -> Option<Sign> {
+    match spreads(vectors) {
+        Ok(spreads) => certain(value(), bound(spreads)),
+        Err(Unfit::Flat) => Some(Sign::Zero),
+        Err(Unfit::OutOfRange) => None,
+    }
+}
+
+#[inline(always)]
+fn vectors<const D: usize, const N: usize>(points: [[f64; D]; N], to: [f64; D]) -> [[f64; D]; N] {
+    points.map(|p| determinant::translated(&p, &to))
+}
+
+#[inline(always)]
+pub(crate) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Option<Sign> {
+    let v = vectors([a, b].map(|p| p.to_array()), c.to_array());
+    semi_static(&v, orient2d_bound, || determinant::orient2d(&v[0], &v[1]))
+}
+
+#[inline(always)]
+pub(crate) fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<Sign> {
+    let v = vectors([a, b, c].map(|p| p.to_array()), d.to_array());
+    semi_static(&v, orient3d_bound, || {
+        determinant::orient3d(&v[0], &v[1], &v[2])
+    })
+}
+
+#[inline(always)]
+pub(crate) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<Sign> {
+    let v = vectors([a, b, c].map(|p| p.to_array()), d.to_array());
+    semi_static(&v, incircle_bound, || {
+        determinant::incircle(&v[0], &v[1], &v[2])
+    })
+}
+
+#[inline(always)]
+pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Option<Sign> {
+    let v = vectors([a, b, c, d].map(|p| p.to_array()), e.to_array());
+    semi_static(&v, insphere_bound, || {
+        determinant::insphere(&v[0], &v[1], &v[2], &v[3])
+    })
+}
+
+/// Static filters for points of space inside a known box: each test costs one comparison beside the
+/// determinant itself (77 operations for the in-sphere test, 23 for the orientation).
+///
+/// Every point given to a test must lie inside the box: debug builds assert it, release builds trust it,
+/// and for a point outside a wrong sign may pass the filter. A box with a side of length zero, or shorter
+/// than 2⁻¹⁹⁰ or longer than 2¹⁹⁰, leaves every decision to the later stages.
+///
+/// ```
+/// use glam::DVec3;
+/// use pellicle_predicates::{Sign, StaticFilter};
+///
+/// let filter = StaticFilter::from_bounds(DVec3::ZERO, DVec3::ONE);
+/// let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+/// let [a, b, c, d] = corners;
+/// assert_eq!(filter.insphere(a, b, c, d, DVec3::splat(0.4)), Sign::Positive);
+/// // The opposite corner of the cube is on the sphere: no filter can tell, exact arithmetic does.
+/// assert_eq!(filter.insphere_filtered(a, b, c, d, DVec3::ONE), None);
+/// assert_eq!(filter.insphere(a, b, c, d, DVec3::ONE), Sign::Zero);
+/// assert_eq!(filter.insphere_perturbed(a, b, c, d, DVec3::ONE), Sign::Negative);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct StaticFilter {
+    min: DVec3,
+    max: DVec3,
+    orient3d: f64,
+    insphere: f64,
+}
+
+impl StaticFilter {
+    /// The filter for points inside the box from `min` to `max`.
+    pub fn from_bounds(min: DVec3, max: DVec3) -> Self {
+        let extents = (max - min).to_array();
+        let usable = |bound: f64| {
+            if in_range(extents) {
+                bound
+            } else {
+                f64::INFINITY
+            }
+        };
+        Self {
+            min,
+            max,
+            orient3d: usable(orient3d_bound(extents)),
+            insphere: usable(insphere_bound(extents)),
+        }
+    }
+
+    #[inline(always)]
+    fn check(&self, points: &[DVec3]) {
+        debug_assert!(
+            points
+                .iter()
+                .all(|p| p.cmpge(self.min).all() && p.cmple(self.max).all()),
+            "a point outside the filter's box: {points:?}"
+        );
+    }
+
+    /// [`orient3d`](crate::orient3d) by the static filter alone: `None` when undecided.
+    #[inline(always)]
+    pub fn orient3d_filtered(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<Sign> {
+        self.check(&[a, b, c, d]);
+        let [a, b, c] = vectors([a, b, c].map(|p| p.to_array()), d.to_array());
+        certain(determinant::orient3d(&a, &b, &c), self.orient3d)
+    }
+
+    /// [`insphere`](crate::insphere) by the static filter alone: `None` when undecided.
+    #[inline(always)]
+    pub fn insphere_filtered(
+        &self,
+        a: DVec3,
+        b: DVec3,
+        c: DVec3,
+        d: DVec3,
+        e: DVec3,
+    ) -> Option<Sign> {
+        self.check(&[a, b, c, d, e]);
+        let [a, b, c, d] = vectors([a, b, c, d].map(|p| p.to_array()), e.to_array());
+        certain(determinant::insphere(&a, &b, &c, &d), self.insphere)
+    }
+
+    /// [`orient3d`](crate::orient3d) for points inside the box.
+    #[inline(always)]
+    pub fn orient3d(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
+        match self.orient3d_filtered(a, b, c, d) {
+            Some(sign) => {
+                decided(Predicate::Orient3d, Stage::Static);
+                sign
+            }
+            None => out_of_line::orient3d(a, b, c, d),
+        }
+    }
+
+    /// [`insphere`](crate::insphere) for points inside the box.
+    #[inline(always)]
+    pub fn insphere(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+        match self.insphere_filtered(a, b, c, d, e) {
+            Some(sign) => {
+                decided(Predicate::InSphere, Stage::Static);
+                sign
+            }
+            None => out_of_line::insphere(a, b, c, d, e),
+        }
+    }
+
+    /// [`lifted::insphere`] for points inside the box.
+    #[inline(always)]
+    pub fn insphere_perturbed(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+        match self.insphere_filtered(a, b, c, d, e) {
+            Some(sign) => {
+                decided(Predicate::InSphere, Stage::Static);
+                sign
+            }
+            None => out_of_line::insphere_perturbed(a, b, c, d, e),
+        }
+    }
+}
+
+/// Static filters for points of the plane inside a known rectangle; as [`StaticFilter`].
+///
+/// ```
+/// use glam::DVec2;
+/// use pellicle_predicates::{Sign, StaticFilter2};
+///
+/// let filter = StaticFilter2::from_bounds(DVec2::ZERO, DVec2::ONE);
+/// assert_eq!(filter.orient2d(DVec2::ZERO, DVec2::X, DVec2::Y), Sign::Positive);
+/// assert_eq!(filter.incircle(DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE), Sign::Zero);
+/// ```
+#[derive(Clone, Copy, Debug)]
+pub struct StaticFilter2 {
+    min: DVec2,
+    max: DVec2,
+    orient2d: f64,
+    incircle: f64,
+}
+
+impl StaticFilter2 {
+    /// The filter for points inside the rectangle from `min` to `max`.
+    pub fn from_bounds(min: DVec2, max: DVec2) -> Self {
+        let extents = (max - min).to_array();
+        let usable = |bound: f64| {
+            if in_range(extents) {
+                bound
+            } else {
+                f64::INFINITY
+            }
+        };
+        Self {
+            min,
+            max,
+            orient2d: usable(orient2d_bound(extents)),
+            incircle: usable(incircle_bound(extents)),
+        }
+    }
+
+    #[inline(always)]
+    fn check(&self, points: &[DVec2]) {
+        debug_assert!(
+            points
+                .iter()
+                .all(|p| p.cmpge(self.min).all() && p.cmple(self.max).all()),
+            "a point outside the filter's rectangle: {points:?}"
+        );
+    }
+
+    /// [`orient2d`](crate::orient2d) by the static filter alone: `None` when undecided.
+    #[inline(always)]
+    pub fn orient2d_filtered(&self, a: DVec2, b: DVec2, c: DVec2) -> Option<Sign> {
+        self.check(&[a, b, c]);
+        let [a, b] = vectors([a, b].map(|p| p.to_array()), c.to_array());
+        certain(determinant::orient2d(&a, &b), self.orient2d)
+    }
+
+    /// [`incircle`](crate::incircle) by the static filter alone: `None` when undecided.
+    #[inline(always)]
+    pub fn incircle_filtered(&self, a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<Sign> {
+        self.check(&[a, b, c, d]);
+        let [a, b, c] = vectors([a, b, c].map(|p| p.to_array()), d.to_array());
+        certain(determinant::incircle(&a, &b, &c), self.incircle)
+    }
+
+    /// [`orient2d`](crate::orient2d) for points inside the rectangle.
+    #[inline(always)]
+    pub fn orient2d(&self, a: DVec2, b: DVec2, c: DVec2) -> Sign {
+        match self.orient2d_filtered(a, b, c) {
+            Some(sign) => {
+                decided(Predicate::Orient2d, Stage::Static);
+                sign
+            }
+            None => out_of_line::orient2d(a, b, c),
+        }
+    }
+
+    /// [`incircle`](crate::incircle) for points inside the rectangle.
+    #[inline(always)]
+    pub fn incircle(&self, a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+        match self.incircle_filtered(a, b, c, d) {
+            Some(sign) => {
+                decided(Predicate::InCircle, Stage::Static);
+                sign
+            }
+            None => out_of_line::incircle(a, b, c, d),
+        }
+    }
+
+    /// [`lifted::incircle`] for points inside the rectangle.
+    #[inline(always)]
+    pub fn incircle_perturbed(&self, a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+        match self.incircle(a, b, c, d) {
+            Sign::Zero => lifted::incircle_of_cocircular(a, b, c, d),
+            sign => sign,
+        }
+    }
+}
+
+/// What follows a static filter that could not decide, kept out of the callers' loops.
+mod out_of_line {
+    use super::{DVec2, DVec3, Sign, lifted};
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Sign {
+        crate::orient2d(a, b, c)
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
+        crate::orient3d(a, b, c, d)
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
+        crate::incircle(a, b, c, d)
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+        crate::insphere(a, b, c, d, e)
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn insphere_perturbed(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+        lifted::insphere(a, b, c, d, e)
+    }
+}
