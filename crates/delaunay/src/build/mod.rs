@@ -1,0 +1,99 @@
+//! Incremental construction: order, first tetrahedron, then for each point locate, dig, retriangulate.
+
+mod cavity;
+mod conflict;
+mod finish;
+mod first;
+mod kernel;
+mod locate;
+
+#[cfg(test)]
+mod tests;
+
+use crate::{Error, InsertionOrder, Options, Tetrahedralization};
+use kernel::Kernel;
+use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId, first_not_finite};
+use pellicle_spatial::brio;
+
+/// Points inserted between two calls of the observer: some milliseconds' work.
+const POINTS_PER_STEP: usize = 4096;
+
+/// See [`crate::tetrahedralize_with`].
+pub(crate) fn tetrahedralize<'a>(
+    points: &'a [DVec3],
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Tetrahedralization<'a>, Error> {
+    check(points)?;
+
+    // 1. The order of insertion, with one representative of each set of equal points.
+    let order = match options.order {
+        InsertionOrder::Brio => brio::order(points),
+        InsertionOrder::AsGiven => duplicates_aside(points),
+    };
+    let (mut order, duplicates) = representatives(points, order);
+
+    // 2. Four points that span a tetrahedron come first.
+    first::four_that_span(points, &mut order)?;
+    let mut kernel = Kernel::of_first_tetrahedron(points, &order);
+
+    // 3. The others, one by one.
+    let total = order.len() as u64;
+    for vertex in 4..order.len() {
+        if vertex % POINTS_PER_STEP == 0 {
+            Cancelled::check(progress.step("tetrahedralize", vertex as u64, total))?;
+        }
+        kernel.insert(vertex)?;
+    }
+    Cancelled::check(progress.step("tetrahedralize", total, total))?;
+
+    // 4. Back to the caller's vertices.
+    Ok(kernel.finish(points, &order, duplicates))
+}
+
+fn check(points: &[DVec3]) -> Result<(), Error> {
+    if points.len() >= u32::MAX as usize {
+        return Err(Error::TooMany {
+            of: "points",
+            limit: u32::MAX as usize - 1,
+        });
+    }
+    match first_not_finite(points) {
+        Some(vertex) => Err(Error::NotFinite { vertex }),
+        None => Ok(()),
+    }
+}
+
+/// The caller's order, but for equal points, which follow the first of them.
+fn duplicates_aside(points: &[DVec3]) -> Vec<u32> {
+    let mut first_of_equals: Vec<u32> = (0..points.len() as u32).collect();
+    let mut sorted = first_of_equals.clone();
+    let coordinates = |i: u32| {
+        (points[i as usize] + DVec3::ZERO)
+            .to_array()
+            .map(f64::to_bits)
+    };
+    sorted.sort_unstable_by_key(|&i| (coordinates(i), i));
+    for equal in sorted.chunk_by(|&i, &j| points[i as usize] == points[j as usize]) {
+        for &i in equal {
+            first_of_equals[i as usize] = equal[0];
+        }
+    }
+    sorted.sort_unstable_by_key(|&i| (first_of_equals[i as usize], i));
+    sorted
+}
+
+/// Splits an order in which equal points are neighbours into the first of each and
+/// (duplicate, representative) pairs; the representative has the lowest id.
+fn representatives(points: &[DVec3], mut order: Vec<u32>) -> (Vec<u32>, Vec<(VertexId, VertexId)>) {
+    let mut duplicates = Vec::new();
+    order.dedup_by(|&mut later, &mut kept| {
+        let equal = points[later as usize] == points[kept as usize];
+        if equal {
+            duplicates.push((VertexId(later), VertexId(kept)));
+        }
+        equal
+    });
+    duplicates.sort_unstable();
+    (order, duplicates)
+}

@@ -1,0 +1,44 @@
+//! Why points have no tetrahedralisation.
+
+use pellicle_geometry::{Cancelled, VertexId};
+
+/// Why [`tetrahedralize`](crate::tetrahedralize) has no result.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A coordinate is NaN or infinite.
+    #[error("point {} has a coordinate that is not finite; remove the point or mend its file", .vertex.0)]
+    NotFinite {
+        /// The first such point.
+        vertex: VertexId,
+    },
+    /// Fewer than four points differ from each other.
+    #[error("{distinct} distinct points: a tetrahedralisation needs at least four")]
+    TooFewPoints {
+        /// How many points are distinct.
+        distinct: usize,
+    },
+    /// All points lie on one line, exactly.
+    #[error("all {distinct} distinct points lie on one line: they span no tetrahedron")]
+    Collinear {
+        /// How many points are distinct.
+        distinct: usize,
+    },
+    /// All points lie in one plane, exactly.
+    #[error("all {distinct} distinct points lie in one plane: they span no tetrahedron")]
+    Coplanar {
+        /// How many points are distinct.
+        distinct: usize,
+    },
+    /// More than 2³⁰ tetrahedra, which is what facet ids can name, or more points than `u32` ids.
+    #[error("more than {limit} {of}: the ids are 32 bits wide; split the points into blocks")]
+    TooMany {
+        /// What there are too many of.
+        of: &'static str,
+        /// How many there may be.
+        limit: usize,
+    },
+    /// The observer asked to stop.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
