@@ -1,8 +1,18 @@
 //! Triangle meshes: a soup of triangles, and the oriented manifold that it may become.
 #![forbid(unsafe_code)]
 
+mod edge_table;
+mod error;
+mod id;
 mod soup;
+mod split;
 mod trimesh;
+mod union_find;
+mod validate;
 
-pub use soup::{MeshView, TriangleSoup};
+pub use error::MeshError;
+pub use id::{HalfEdgeId, TriangleId};
+pub use soup::{MeshView, TriangleSoup, VertexRemap};
+pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};
 pub use trimesh::TriMesh;
+pub use validate::{Defect, validate};
