@@ -232,7 +232,7 @@ impl StaticFilter {
     #[inline(always)]
     pub fn orient3d_filtered(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<Sign> {
         self.check(&[a, b, c, d]);
-        let [a, b, c] = vectors([a, b, c].map(|p| p.to_array()), d.to_array());
+        let [a, b, c] = [(a - d).to_array(), (b - d).to_array(), (c - d).to_array()];
         certain(determinant::orient3d(&a, &b, &c), self.orient3d)
     }
 
@@ -247,7 +247,13 @@ impl StaticFilter {
         e: DVec3,
     ) -> Option<Sign> {
         self.check(&[a, b, c, d, e]);
-        let [a, b, c, d] = vectors([a, b, c, d].map(|p| p.to_array()), e.to_array());
+        // One by one: `map` over an array of points goes through memory, at half the speed.
+        let [a, b, c, d] = [
+            (a - e).to_array(),
+            (b - e).to_array(),
+            (c - e).to_array(),
+            (d - e).to_array(),
+        ];
         certain(determinant::insphere(&a, &b, &c, &d), self.insphere)
     }
 

@@ -67,7 +67,7 @@ const fn entry_corner(w: u8) -> u8 {
 const fn intra_direction(w: u8) -> u8 {
     if w == 0 {
         0
-    } else if w % 2 == 0 {
+    } else if w & 1 == 0 {
         (w - 1).trailing_ones() as u8 % 3
     } else {
         w.trailing_ones() as u8 % 3

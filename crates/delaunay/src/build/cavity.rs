@@ -58,6 +58,7 @@ impl Cavity {
 impl Kernel {
     /// Finds all tetrahedra in conflict with `p`, breadth first from `start`, and the facets around them.
     /// The conflict region is connected and star-shaped around `p`: the signs are exact.
+    #[inline(never)]
     pub(super) fn dig(&mut self, start: TetId, p: DVec3) {
         // Out of `self`, so that the conflict test may borrow it.
         let mut conflict = std::mem::take(&mut self.cavity.conflict);
@@ -98,6 +99,7 @@ impl Kernel {
     }
 
     /// Fills the cavity with a tetrahedron from `vertex` to each boundary facet.
+    #[inline(never)]
     pub(super) fn retriangulate(&mut self, vertex: VertexId) -> Result<(), Error> {
         let mut cavity = std::mem::take(&mut self.cavity);
         self.vacant.append(&mut cavity.conflict);
@@ -136,6 +138,7 @@ impl Kernel {
     ///       /   \       facet 2 (opposite b): c → a
     ///      b ——→ c      facet 3 (opposite c): a → b
     /// ```
+    #[inline(never)]
     fn join_through_table(&mut self, cavity: &mut Cavity, vertices: usize) {
         cavity.vertices.clear();
         for k in 0..cavity.boundary.len() {

@@ -14,7 +14,7 @@ impl Kernel {
         if d == INFINITE {
             return self.is_infinite_in_conflict(tet, p);
         }
-        let [a, b, c, d] = [a, b, c, d].map(|v| self.point(v));
+        let (a, b, c, d) = (self.point(a), self.point(b), self.point(c), self.point(d));
         self.filter.insphere_perturbed(a, b, c, d, p) == Sign::Positive
     }
 

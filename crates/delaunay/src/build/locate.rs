@@ -12,6 +12,7 @@ impl Kernel {
     /// Walks from the last insertion, through any facet that has `p` strictly beyond it, but not back
     /// through the one just crossed (Devillers et al. 2002). It ends because the tetrahedralisation is a
     /// regular one and the signs are exact.
+    #[inline(never)]
     pub(super) fn locate(&self, p: DVec3) -> TetId {
         let mut tet = self.recent;
         if self.tets[tet.index()][3] == INFINITE {
@@ -43,7 +44,9 @@ impl Kernel {
         corner: usize,
         p: DVec3,
     ) -> bool {
-        let [a, b, c] = facet_vertices(corners, corner).map(|v| self.point(v));
-        self.filter.orient3d(a, b, c, p) == Sign::Negative
+        let [a, b, c] = facet_vertices(corners, corner);
+        self.filter
+            .orient3d(self.point(a), self.point(b), self.point(c), p)
+            == Sign::Negative
     }
 }
