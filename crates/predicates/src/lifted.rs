@@ -28,22 +28,31 @@ use std::cmp::Ordering;
 /// Compares by x, then y, then z; −0 and 0 are equal.
 #[inline]
 pub fn lexicographic(a: DVec3, b: DVec3) -> Ordering {
-    compare(&a.to_array(), &b.to_array())
+    compare(a.to_array(), b.to_array())
 }
 
 /// Compares by x, then y; −0 and 0 are equal.
 #[inline]
 pub fn lexicographic2d(a: DVec2, b: DVec2) -> Ordering {
-    compare(&a.to_array(), &b.to_array())
+    compare(a.to_array(), b.to_array())
 }
 
 #[inline]
-fn compare(a: &[f64], b: &[f64]) -> Ordering {
-    a.partial_cmp(b).unwrap_or(Ordering::Equal)
+fn compare<const D: usize>(a: [f64; D], b: [f64; D]) -> Ordering {
+    for (x, y) in a.into_iter().zip(b) {
+        if x < y {
+            return Ordering::Less;
+        }
+        if x > y {
+            return Ordering::Greater;
+        }
+    }
+    Ordering::Equal
 }
 
 /// The perturbed in-circle test: positive when `d` lies inside the circle through the counter-clockwise
-/// `a, b, c`. Never zero for distinct points with `a, b, c` not collinear.
+/// `a, b, c`. Never zero for distinct points with `a, b, c` not collinear; zero when a point of a
+/// degenerate set is there twice.
 #[inline]
 pub fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
     match plain_incircle(a, b, c, d) {
@@ -53,7 +62,8 @@ pub fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
 }
 
 /// The perturbed in-sphere test: positive when `e` lies inside the sphere through the positively oriented
-/// `a, b, c, d`. Never zero for distinct points with `a, b, c, d` not coplanar.
+/// `a, b, c, d`. Never zero for distinct points with `a, b, c, d` not coplanar; zero when a point of a
+/// degenerate set is there twice.
 ///
 /// ```
 /// use glam::DVec3;
@@ -76,16 +86,12 @@ pub fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
 #[inline(never)]
 pub fn incircle_of_cocircular(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
     decided(Predicate::InCircle, Stage::Perturbation);
-    let points = [a, b, c, d];
-    let mut order = [0, 1, 2, 3];
-    order.sort_unstable_by(|&i, &j| lexicographic2d(points[j], points[i]));
-    let factors = order.iter().map(|i| match i {
+    from_the_largest([a, b, c, d], lexicographic2d, |raised| match raised {
         0 => orient2d(d, b, c),
         1 => orient2d(a, d, c),
         2 => orient2d(a, b, d),
         _ => -orient2d(a, b, c),
-    });
-    first_nonzero(factors)
+    })
 }
 
 /// The sign of the perturbation for five points already known to be cospherical (or coplanar).
@@ -93,19 +99,39 @@ pub fn incircle_of_cocircular(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
 #[inline(never)]
 pub fn insphere_of_cospherical(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
     decided(Predicate::InSphere, Stage::Perturbation);
-    let points = [a, b, c, d, e];
-    let mut order = [0, 1, 2, 3, 4];
-    order.sort_unstable_by(|&i, &j| lexicographic(points[j], points[i]));
-    let factors = order.iter().map(|i| match i {
+    from_the_largest([a, b, c, d, e], lexicographic, |raised| match raised {
         0 => orient3d(e, b, c, d),
         1 => orient3d(a, e, c, d),
         2 => orient3d(a, b, e, d),
         3 => orient3d(a, b, c, e),
         _ => -orient3d(a, b, c, d),
-    });
-    first_nonzero(factors)
+    })
 }
 
-fn first_nonzero(mut signs: impl Iterator<Item = Sign>) -> Sign {
-    signs.find(|&sign| sign != Sign::Zero).unwrap_or(Sign::Zero)
+/// The first factor that is not zero, from the largest point down. The first one mostly decides, so the
+/// points are not sorted but the largest is searched again among those left.
+#[inline(always)]
+fn from_the_largest<P: Copy, const N: usize>(
+    points: [P; N],
+    order: impl Fn(P, P) -> Ordering,
+    factor: impl Fn(usize) -> Sign,
+) -> Sign {
+    let mut left: [usize; N] = std::array::from_fn(|i| i);
+    for count in (1..=N).rev() {
+        let mut largest = 0;
+        for i in 1..count {
+            match order(points[left[i]], points[left[largest]]) {
+                Ordering::Greater => largest = i,
+                Ordering::Less => {}
+                // Two equal points are raised alike: the determinant stays zero.
+                Ordering::Equal => return Sign::Zero,
+            }
+        }
+        let sign = factor(left[largest]);
+        if sign != Sign::Zero {
+            return sign;
+        }
+        left[largest] = left[count - 1];
+    }
+    Sign::Zero
 }

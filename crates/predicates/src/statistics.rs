@@ -38,16 +38,18 @@ pub enum Stage {
     SemiStatic,
     /// Exact 128-bit integers, for coordinates on a coarse lattice.
     Lattice,
+    /// Exact integers of fixed width, for coordinates of like magnitude.
+    FixedWidth,
     /// Interval arithmetic.
     Interval,
-    /// Exact integers of any size.
-    Exact,
+    /// Exact integers of any width.
+    AnyWidth,
     /// A tie, decided by symbolic perturbation.
     Perturbation,
 }
 
 const PREDICATES: usize = 4;
-const STAGES: usize = 6;
+const STAGES: usize = 7;
 
 /// The number of calls by predicate and stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -5,6 +5,7 @@
 mod inputs;
 mod oracle;
 mod permutation;
+mod schemes;
 mod signs;
 mod stages;
 

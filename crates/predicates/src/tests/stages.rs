@@ -6,8 +6,8 @@ use super::{
     oracle,
 };
 use crate::{
-    Sign, StaticFilter, StaticFilter2, determinant::Ring, exact, filter, integer::Integer,
-    interval::Interval, unfiltered,
+    Sign, StaticFilter, StaticFilter2, determinant::Ring, exact, filter, fixed, integer::Integer,
+    interval::Interval, lattice, unfiltered,
 };
 use dashu::integer::IBig;
 use glam::DVec3;
@@ -82,6 +82,8 @@ proptest! {
         prop_assert!(right(fixed.orient2d_filtered(a, b, c), truth));
         prop_assert!(right(filter::orient2d(a, b, c), truth));
         prop_assert!(contains(unfiltered::interval_orient2d(a, b, c), &value, 2));
+        prop_assert!(right(lattice::orient2d(a, b, c), truth));
+        prop_assert!(right(fixed::orient2d(a, b, c), truth));
         prop_assert_eq!(exact::orient2d(a, b, c), truth);
         prop_assert_eq!(fixed.orient2d(a, b, c), truth);
     }
@@ -96,6 +98,8 @@ proptest! {
         prop_assert!(right(fixed.orient3d_filtered(a, b, c, d), truth));
         prop_assert!(right(filter::orient3d(a, b, c, d), truth));
         prop_assert!(contains(unfiltered::interval_orient3d(a, b, c, d), &value, 3));
+        prop_assert!(right(lattice::orient3d(a, b, c, d), truth));
+        prop_assert!(right(fixed::orient3d(a, b, c, d), truth));
         prop_assert_eq!(exact::orient3d(a, b, c, d), truth);
         prop_assert_eq!(fixed.orient3d(a, b, c, d), truth);
     }
@@ -110,6 +114,8 @@ proptest! {
         prop_assert!(right(fixed.incircle_filtered(a, b, c, d), truth));
         prop_assert!(right(filter::incircle(a, b, c, d), truth));
         prop_assert!(contains(unfiltered::interval_incircle(a, b, c, d), &value, 4));
+        prop_assert!(right(lattice::incircle(a, b, c, d), truth));
+        prop_assert!(right(fixed::incircle(a, b, c, d), truth));
         prop_assert_eq!(exact::incircle(a, b, c, d), truth);
         prop_assert_eq!(fixed.incircle(a, b, c, d), truth);
     }
@@ -124,6 +130,8 @@ proptest! {
         prop_assert!(right(fixed.insphere_filtered(a, b, c, d, e), truth));
         prop_assert!(right(filter::insphere(a, b, c, d, e), truth));
         prop_assert!(contains(unfiltered::interval_insphere(a, b, c, d, e), &value, 5));
+        prop_assert!(right(lattice::insphere(a, b, c, d, e), truth));
+        prop_assert!(right(fixed::insphere(a, b, c, d, e), truth));
         prop_assert_eq!(exact::insphere(a, b, c, d, e), truth);
         prop_assert_eq!(fixed.insphere(a, b, c, d, e), truth);
     }

@@ -1,0 +1,160 @@
+//! Exact 128-bit evaluation for points on a coarse lattice.
+//!
+//! Degenerate input is mostly quantised input: grids, scans with a fixed step, rounded coordinates. When
+//! the coordinates of a call are integer multiples of a power of two, and their differences are less than
+//! 2^B of these units, the determinant divided by the units is an integer that fits 128 bits:
+//!
+//! | determinant | monomials | largest value | B |
+//! |---|---|---|---|
+//! | orient2d | 2 | 2 · 2^2B | 62 |
+//! | orient3d | 6 | 6 · 2^3B | 41 |
+//! | incircle | 12 | 12 · 2^4B | 30 |
+//! | insphere | 72 | 72 · 2^5B | 24 |
+//!
+//! No intermediate result is larger than the sum of the absolute monomials, which is the value given.
+
+use crate::{Sign, determinant, determinant::Ring};
+use glam::{DVec2, DVec3};
+
+impl Ring for i128 {
+    #[inline(always)]
+    fn add(&self, other: &Self) -> Self {
+        self + other
+    }
+    #[inline(always)]
+    fn sub(&self, other: &Self) -> Self {
+        self - other
+    }
+    #[inline(always)]
+    fn mul(&self, other: &Self) -> Self {
+        self * other
+    }
+}
+
+/// A power of two and its inverse.
+#[derive(Clone, Copy)]
+struct Unit {
+    size: f64,
+    inverse: f64,
+}
+
+impl Unit {
+    /// The unit in which a number like `largest` has `bits` bits.
+    #[inline(always)]
+    fn of(largest: f64, bits: u32) -> Option<Self> {
+        let exponent = (largest.to_bits() >> 52) as i64 + 1 - i64::from(bits);
+        // Both powers must be normal numbers, so that multiplying by them rounds only by underflow, which
+        // `count` notices, or overflow.
+        (1..2046).contains(&exponent).then(|| Self {
+            size: f64::from_bits((exponent as u64) << 52),
+            inverse: f64::from_bits(((2046 - exponent) as u64) << 52),
+        })
+    }
+
+    /// How many units `coordinate` is, and whether that is exact.
+    #[inline(always)]
+    fn count(self, coordinate: f64) -> (i64, bool) {
+        const LIMIT: f64 = (1_i64 << 62) as f64;
+        let units = coordinate * self.inverse;
+        let count = units as i64;
+        let exact = count as f64 * self.size == coordinate;
+        (count, exact & (units.abs() < LIMIT))
+    }
+
+    /// The same for all coordinates of a point.
+    #[inline(always)]
+    fn counts<const D: usize>(self, point: [f64; D]) -> ([i64; D], bool) {
+        let mut exact = true;
+        let counts = point.map(|coordinate| {
+            let (count, is_exact) = self.count(coordinate);
+            exact &= is_exact;
+            count
+        });
+        (counts, exact)
+    }
+}
+
+/// The points minus the last one in lattice units, if these are exact and have at most `BITS` bits.
+#[inline(always)]
+fn differences<const BITS: u32, const D: usize, const N: usize>(
+    points: [[f64; D]; N],
+    last: [f64; D],
+) -> Option<[[i64; D]; N]> {
+    let mut largest = 0.0;
+    for p in &points {
+        for (x, y) in p.iter().zip(&last) {
+            largest = f64::max(largest, (x - y).abs());
+        }
+    }
+    let unit = Unit::of(largest, BITS)?;
+    // Off the lattice, the first point mostly shows it.
+    let (last, on_lattice) = unit.counts(last);
+    if !on_lattice {
+        return None;
+    }
+    let mut exact = true;
+    let mut differences = points.map(|p| {
+        let (counts, on_lattice) = unit.counts(p);
+        exact &= on_lattice;
+        counts
+    });
+    // The extent above is rounded; whether the differences fit is seen from them alone.
+    let mut bits = 0;
+    for difference in &mut differences {
+        for (d, l) in difference.iter_mut().zip(last) {
+            // Counts that are not exact may be anything; no exact pair overflows.
+            *d = d.wrapping_sub(l);
+            bits |= d.unsigned_abs();
+        }
+    }
+    (exact & (bits >> BITS == 0)).then_some(differences)
+}
+
+fn sign(value: i128) -> Sign {
+    match value.signum() {
+        1 => Sign::Positive,
+        0 => Sign::Zero,
+        _ => Sign::Negative,
+    }
+}
+
+#[inline(always)]
+fn wide<const D: usize, const N: usize>(vectors: [[i64; D]; N]) -> [[i128; D]; N] {
+    vectors.map(|v| v.map(i128::from))
+}
+
+pub(crate) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Option<Sign> {
+    let v = differences::<62, 2, 2>([a, b].map(|p| p.to_array()), c.to_array())?;
+    let [a, b] = wide(v);
+    Some(sign(determinant::orient2d(&a, &b)))
+}
+
+pub(crate) fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<Sign> {
+    let v = differences::<41, 3, 3>([a, b, c].map(|p| p.to_array()), d.to_array())?;
+    let [a, b, c] = wide(v);
+    Some(sign(determinant::orient3d(&a, &b, &c)))
+}
+
+pub(crate) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<Sign> {
+    let v = differences::<30, 2, 3>([a, b, c].map(|p| p.to_array()), d.to_array())?;
+    let [a, b, c] = wide(v);
+    Some(sign(determinant::incircle(&a, &b, &c)))
+}
+
+/// The formula of [`determinant::insphere`], each part in the narrowest type that holds it: minors are
+/// below 2 · 2⁴⁸, lifts below 3 · 2⁴⁸.
+pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Option<Sign> {
+    let [a, b, c, d] = differences::<24, 3, 4>([a, b, c, d].map(|p| p.to_array()), e.to_array())?;
+    let minor = |x: &[i64; 3], y: &[i64; 3]| x[0] * y[1] - y[0] * x[1];
+    let lift = |p: &[i64; 3]| i128::from(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+    let z = |p: &[i64; 3], minor: i64| i128::from(p[2]) * i128::from(minor);
+    let (ab, bc, cd) = (minor(&a, &b), minor(&b, &c), minor(&c, &d));
+    let (da, ac, bd) = (minor(&d, &a), minor(&a, &c), minor(&b, &d));
+    let abc = z(&a, bc) - z(&b, ac) + z(&c, ab);
+    let bcd = z(&b, cd) - z(&c, bd) + z(&d, bc);
+    let cda = z(&c, da) + z(&d, ac) + z(&a, cd);
+    let dab = z(&d, ab) + z(&a, bd) + z(&b, da);
+    Some(sign(
+        lift(&c) * dab - lift(&d) * abc + (lift(&a) * bcd - lift(&b) * cda),
+    ))
+}
