@@ -101,11 +101,14 @@ impl Format {
         match content {
             Content::Points => matches!(
                 self,
-                Self::Ply | Self::Xyz | Self::Pts | Self::Csv | Self::Off | Self::Obj
+                Self::Ply | Self::Xyz | Self::Pts | Self::Csv | Self::Pcd | Self::Off | Self::Obj
             ),
             Content::Normals => self == Self::Pwn || self.can_write(Content::Points),
             Content::Mesh => {
-                matches!(self, Self::Ply | Self::Off | Self::Obj | Self::Stl)
+                matches!(
+                    self,
+                    Self::Ply | Self::Off | Self::Obj | Self::Stl | Self::Glb
+                )
             }
         }
     }

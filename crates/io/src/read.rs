@@ -208,7 +208,7 @@ fn read_path(
 fn parse(
     source: &mut Source,
     format: Format,
-    _base: Option<&Path>,
+    base: Option<&Path>,
     keep: Keep,
 ) -> Result<(Contents, ReadReport), Error> {
     if source.length() == 0 {
@@ -222,7 +222,7 @@ fn parse(
         Format::Off => off::read(source, keep),
         Format::Obj => obj::read(source, keep),
         Format::Stl => stl::read(source, keep),
-        Format::Gltf | Format::Glb => gltf::read(source),
+        Format::Gltf | Format::Glb => gltf::read(source, base, keep),
     }?
     .finish();
     tracing::debug!(

@@ -49,12 +49,25 @@ impl<'a> Source<'a> {
         self.path
     }
 
+    pub fn progress(&self) -> &'a dyn Progress {
+        self.progress
+    }
+
     pub fn length(&self) -> u64 {
         self.length
     }
 
+    pub fn offset(&self) -> u64 {
+        self.offset
+    }
+
     pub fn remaining(&self) -> u64 {
         self.length.saturating_sub(self.offset)
+    }
+
+    /// The input itself, for a decoder of someone else's.
+    pub fn input(&mut self) -> &mut dyn Input {
+        self.input
     }
 
     /// The next bytes without taking them: at least one unless the file is at its end, at most what the
@@ -134,6 +147,30 @@ impl<'a> Source<'a> {
             left -= now;
         }
         Ok(())
+    }
+
+    /// All the bytes that are left, `count` at most.
+    pub fn read_to_vec(&mut self, count: u64, what: &str) -> Result<Vec<u8>, Error> {
+        if count > self.remaining() {
+            return Err(self.truncated(what));
+        }
+        let mut bytes = Vec::new();
+        bytes
+            .try_reserve_exact(count as usize)
+            .map_err(|_| self.too_many(count, "bytes"))?;
+        while (bytes.len() as u64) < count {
+            let step = (count - bytes.len() as u64).min(TICK);
+            let got = self
+                .input
+                .take(step)
+                .read_to_end(&mut bytes)
+                .map_err(|e| read_error(self.path, e))?;
+            if got == 0 {
+                return Err(self.truncated(what));
+            }
+            self.pass(got as u64)?;
+        }
+        Ok(bytes)
     }
 
     /// Counts bytes as read, and asks whether to go on.

@@ -1,7 +1,7 @@
 //! Writing, whatever the format.
 
 use crate::sink::Sink;
-use crate::{Content, Error, Format, Note, WriteReport, obj, off, ply, stl, table};
+use crate::{Content, Error, Format, Note, WriteReport, gltf, obj, off, pcd, ply, stl, table};
 use pellicle_geometry::{DVec3, PointCloud, Progress, first_not_finite};
 use pellicle_mesh::MeshView;
 use std::path::Path;
@@ -118,10 +118,12 @@ fn write(
         Format::Xyz | Format::Pts | Format::Pwn | Format::Csv => {
             table::write(&mut sink, mesh.positions, normals, format, &mut notes)?;
         }
+        Format::Pcd => pcd::write(&mut sink, mesh.positions, normals, options.encoding)?,
         Format::Off => off::write(&mut sink, mesh, normals)?,
         Format::Obj => obj::write(&mut sink, mesh, normals)?,
         Format::Stl => stl::write(&mut sink, path, mesh, normals, &mut notes)?,
-        Format::Las | Format::Laz | Format::Gltf | Format::Glb | Format::Pcd => {
+        Format::Glb => gltf::write(&mut sink, path, mesh, normals, &mut notes)?,
+        Format::Las | Format::Laz | Format::Gltf => {
             unreachable!("{format} is not among the formats that can be written")
         }
     }
