@@ -1,0 +1,86 @@
+//! From the data's coordinates to the unit ball.
+
+use pellicle_geometry::{Aabb, DVec3};
+
+/// A shift and a scale that bring points into the unit ball around the middle of their box.
+#[derive(Clone, Copy, Debug)]
+pub struct Frame {
+    center: DVec3,
+    /// Half the longest edge of the box; zero where all points coincide.
+    half_extent: f64,
+    /// The largest distance from the centre, in half extents.
+    radius: f64,
+}
+
+impl Frame {
+    /// The frame of some finite points. Linear time; two passes.
+    pub fn of(points: impl Iterator<Item = DVec3> + Clone) -> Self {
+        let bounds = points.clone().fold(Aabb::EMPTY, Aabb::with);
+        let mut frame = Self {
+            center: DVec3::ZERO,
+            half_extent: 0.0,
+            radius: 1.0,
+        };
+        if bounds.is_empty() {
+            return frame;
+        }
+        frame.center = bounds.center();
+        // Halves, so that no finite box overflows.
+        frame.half_extent = (bounds.max * 0.5 - bounds.min * 0.5).max_element();
+        let farthest = points
+            .map(|point| frame.place(point).length_squared())
+            .fold(0.0, f64::max)
+            .sqrt();
+        if farthest > 0.0 {
+            frame.radius = farthest;
+        }
+        frame
+    }
+
+    /// The point inside the unit ball.
+    pub fn place(&self, point: DVec3) -> DVec3 {
+        if self.half_extent > 0.0 {
+            (point * 0.5 - self.center * 0.5) / self.half_extent * (2.0 / self.radius)
+        } else {
+            DVec3::ZERO
+        }
+    }
+
+    /// A length of the data in the ball's units.
+    pub fn scale(&self, length: f64) -> f64 {
+        if self.half_extent > 0.0 {
+            length / self.half_extent / self.radius
+        } else {
+            length
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn any_finite_points_fit_the_unit_ball() {
+        for scale in [1.0, 1e-300, 8e307, f64::MIN_POSITIVE] {
+            for shift in [0.0, 1.0] {
+                let points = [DVec3::ZERO, DVec3::X, DVec3::new(0.5, 1.0, -0.25)]
+                    .map(|p| (p + DVec3::splat(shift)) * scale);
+                let frame = Frame::of(points.iter().copied());
+                let placed = points.map(|p| frame.place(p).length());
+                let farthest = placed.iter().copied().fold(0.0, f64::max);
+                assert!(
+                    (farthest - 1.0).abs() < 1e-12,
+                    "{scale} {shift}: {placed:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn one_point_and_none() {
+        let point = DVec3::splat(1e300);
+        assert_eq!(Frame::of([point].into_iter()).place(point), DVec3::ZERO);
+        assert_eq!(Frame::of(std::iter::empty()).place(point), DVec3::ZERO);
+    }
+}
