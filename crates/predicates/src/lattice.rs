@@ -6,12 +6,14 @@
 //!
 //! | determinant | monomials | largest value | B |
 //! |---|---|---|---|
-//! | orient2d | 2 | 2 · 2^2B | 62 |
+//! | orient2d | 2 | 2 · 2^2B | 48 |
 //! | orient3d | 6 | 6 · 2^3B | 41 |
 //! | incircle | 12 | 12 · 2^4B | 30 |
 //! | insphere | 72 | 72 · 2^5B | 24 |
 //!
-//! No intermediate result is larger than the sum of the absolute monomials, which is the value given.
+//! No intermediate result is larger than the sum of the absolute monomials, which is the value given. The
+//! coordinates themselves, far from the origin perhaps, must fit 62 bits; for orient2d B is less than could
+//! be, to leave them room.
 
 use crate::{Sign, determinant, determinant::Ring};
 use glam::{DVec2, DVec3};
@@ -124,7 +126,7 @@ fn wide<const D: usize, const N: usize>(vectors: [[i64; D]; N]) -> [[i128; D]; N
 }
 
 pub(crate) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Option<Sign> {
-    let v = differences::<62, 2, 2>([a, b].map(|p| p.to_array()), c.to_array())?;
+    let v = differences::<48, 2, 2>([a, b].map(|p| p.to_array()), c.to_array())?;
     let [a, b] = wide(v);
     Some(sign(determinant::orient2d(&a, &b)))
 }

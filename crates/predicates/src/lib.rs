@@ -67,6 +67,10 @@ pub use sign::Sign;
 #[cfg(test)]
 mod tests;
 
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 /// The sign of det[b − a, c − a]: positive when `a, b, c` turn counter-clockwise.
 ///
 /// ```

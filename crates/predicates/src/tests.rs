@@ -2,6 +2,7 @@
 //!
 //! `PELLICLE_CASES` sets the number of cases of each property.
 
+mod coverage;
 mod inputs;
 mod oracle;
 mod permutation;
