@@ -80,4 +80,20 @@ impl Aabb {
     pub fn diagonal(self) -> f64 {
         self.extent().length()
     }
+
+    /// The square of the distance from a point to the box: zero inside, infinite for the empty box.
+    ///
+    /// Never above the computed square of the distance from `point` to any point of the box: subtraction,
+    /// square and sum round monotonically.
+    ///
+    /// ```
+    /// # use pellicle_geometry::{Aabb, DVec3};
+    /// let unit = Aabb { min: DVec3::ZERO, max: DVec3::ONE };
+    /// assert_eq!(unit.distance_squared(DVec3::new(0.5, 3.0, -1.0)), 5.0);
+    /// ```
+    #[inline]
+    pub fn distance_squared(self, point: DVec3) -> f64 {
+        let gap = (self.min - point).max(point - self.max).max(DVec3::ZERO);
+        gap.length_squared()
+    }
 }

@@ -5,4 +5,9 @@
 #![forbid(unsafe_code)]
 
 pub mod brio;
+pub mod bvh;
 pub mod hilbert;
+pub mod kd_tree;
+
+pub use bvh::Bvh;
+pub use kd_tree::{KdTree, Neighbor, median_spacing};
