@@ -4,6 +4,7 @@
 mod edge_table;
 mod error;
 mod id;
+mod self_intersection;
 mod soup;
 mod split;
 mod trimesh;
@@ -12,6 +13,7 @@ mod validate;
 
 pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};
+pub use self_intersection::{count_self_intersections, self_intersections, triangles_intersect};
 pub use soup::{MeshView, TriangleSoup, VertexRemap};
 pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};
 pub use trimesh::TriMesh;

@@ -1,6 +1,6 @@
 //! Triangles without a guarantee.
 
-use crate::{TriMesh, TriangleId};
+use crate::{MeshError, TriMesh, TriangleId};
 use pellicle_geometry::{Aabb, DVec3, VertexId};
 
 /// Triangles over positions, with nothing promised: what a file holds.
@@ -119,6 +119,17 @@ impl<'a> MeshView<'a> {
     pub(crate) fn is_usable(self, triangle: [VertexId; 3]) -> bool {
         let [a, b, c] = triangle;
         a != b && b != c && c != a && triangle.iter().all(|v| v.index() < self.positions.len())
+    }
+
+    /// An error unless `u32` ids can name every vertex and half-edge.
+    pub(crate) fn check_size(self) -> Result<(), MeshError> {
+        match self.fits_ids() {
+            true => Ok(()),
+            false => Err(MeshError::TooLarge {
+                vertices: self.positions.len(),
+                triangles: self.triangles.len(),
+            }),
+        }
     }
 
     /// Whether `u32` ids can name every vertex and half-edge.

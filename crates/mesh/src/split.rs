@@ -111,12 +111,7 @@ impl TriMesh {
         soup: TriangleSoup,
         options: &SplitOptions,
     ) -> Result<(Self, SplitReport), MeshError> {
-        if !MeshView::from(&soup).fits_ids() {
-            return Err(MeshError::TooLarge {
-                vertices: soup.positions.len(),
-                triangles: soup.triangles.len(),
-            });
-        }
+        MeshView::from(&soup).check_size()?;
         let mut report = SplitReport::default();
         let mut kept = keep_usable(soup, &mut report);
         if options.orientation == OrientationPolicy::Reorient {
