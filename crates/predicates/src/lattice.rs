@@ -1,4 +1,4 @@
-//! Exact 128-bit evaluation for points on a coarse lattice.
+//! Exact evaluation in doubles or 128-bit integers for points on a coarse lattice.
 //!
 //! Degenerate input is mostly quantised input: grids, scans with a fixed step, rounded coordinates. When
 //! the coordinates of a call are integer multiples of a power of two, and their differences are less than
@@ -76,6 +76,42 @@ impl Unit {
     }
 }
 
+/// The points minus the last one, if these differences are exact multiples of a power of two with at most
+/// `BITS` bits, so small and so large that products of five of them neither underflow nor overflow.
+#[inline(always)]
+fn exact_doubles<const BITS: u32, const D: usize, const N: usize>(
+    points: &[[f64; D]; N],
+    last: &[f64; D],
+) -> Option<[[f64; D]; N]> {
+    let mut differences = *points;
+    let mut largest = 0.0;
+    for difference in &mut differences {
+        for (d, l) in difference.iter_mut().zip(last) {
+            *d -= l;
+            largest = f64::max(largest, d.abs());
+        }
+    }
+    let range = f64::powi(2.0, -180)..f64::powi(2.0, 180);
+    if !range.contains(&largest) {
+        return None;
+    }
+    let unit = Unit::of(largest, BITS)?.size;
+    // Adding 1.5 · 2⁵² units and taking them away again rounds to whole units what is less than 2⁵¹ units.
+    let rounder = unit * (1.5 * f64::powi(2.0, 52));
+    let limit = unit * f64::powi(2.0, 50);
+    let mut exact = true;
+    for l in last {
+        exact &= ((l + rounder) - rounder == *l) & (l.abs() <= limit);
+    }
+    if !exact {
+        return None;
+    }
+    for c in points.iter().flatten() {
+        exact &= (c + rounder) - rounder == *c;
+    }
+    exact.then_some(differences)
+}
+
 /// The points minus the last one in lattice units, if these are exact and have at most `BITS` bits.
 #[inline(always)]
 fn differences<const BITS: u32, const D: usize, const N: usize>(
@@ -126,27 +162,44 @@ fn wide<const D: usize, const N: usize>(vectors: [[i64; D]; N]) -> [[i128; D]; N
 }
 
 pub(crate) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Option<Sign> {
-    let v = differences::<48, 2, 2>([a, b].map(|p| p.to_array()), c.to_array())?;
+    let (points, last) = ([a.to_array(), b.to_array()], c.to_array());
+    if let Some([a, b]) = exact_doubles::<26, 2, 2>(&points, &last) {
+        return Some(Sign::of(determinant::orient2d(&a, &b)));
+    }
+    let v = differences::<48, 2, 2>(points, last)?;
     let [a, b] = wide(v);
     Some(sign(determinant::orient2d(&a, &b)))
 }
 
 pub(crate) fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<Sign> {
-    let v = differences::<41, 3, 3>([a, b, c].map(|p| p.to_array()), d.to_array())?;
+    let (points, last) = ([a.to_array(), b.to_array(), c.to_array()], d.to_array());
+    if let Some([a, b, c]) = exact_doubles::<16, 3, 3>(&points, &last) {
+        return Some(Sign::of(determinant::orient3d(&a, &b, &c)));
+    }
+    let v = differences::<41, 3, 3>(points, last)?;
     let [a, b, c] = wide(v);
     Some(sign(determinant::orient3d(&a, &b, &c)))
 }
 
 pub(crate) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<Sign> {
-    let v = differences::<30, 2, 3>([a, b, c].map(|p| p.to_array()), d.to_array())?;
+    let (points, last) = ([a.to_array(), b.to_array(), c.to_array()], d.to_array());
+    if let Some([a, b, c]) = exact_doubles::<12, 2, 3>(&points, &last) {
+        return Some(Sign::of(determinant::incircle(&a, &b, &c)));
+    }
+    let v = differences::<30, 2, 3>(points, last)?;
     let [a, b, c] = wide(v);
     Some(sign(determinant::incircle(&a, &b, &c)))
 }
 
-/// The formula of [`determinant::insphere`], each part in the narrowest type that holds it: minors are
+/// In integers the formula of [`determinant::insphere`], each part in the narrowest type that holds it: minors are
 /// below 2 · 2⁴⁸, lifts below 3 · 2⁴⁸.
 pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Option<Sign> {
-    let [a, b, c, d] = differences::<24, 3, 4>([a, b, c, d].map(|p| p.to_array()), e.to_array())?;
+    let points = [a.to_array(), b.to_array(), c.to_array(), d.to_array()];
+    let last = e.to_array();
+    if let Some([a, b, c, d]) = exact_doubles::<9, 3, 4>(&points, &last) {
+        return Some(Sign::of(determinant::insphere(&a, &b, &c, &d)));
+    }
+    let [a, b, c, d] = differences::<24, 3, 4>(points, last)?;
     let minor = |x: &[i64; 3], y: &[i64; 3]| x[0] * y[1] - y[0] * x[1];
     let lift = |p: &[i64; 3]| i128::from(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
     let z = |p: &[i64; 3], minor: i64| i128::from(p[2]) * i128::from(minor);
