@@ -129,6 +129,18 @@ pub enum Error {
         /// How many vertices there are.
         vertices: usize,
     },
+    /// A tetrahedron to be written has a corner that is not a vertex.
+    #[error("{}: not written: tetrahedron {tetrahedron} has a corner {} that is none of the {vertices} vertices", .path.display(), .vertex.0)]
+    CornerOutOfRange {
+        /// The file.
+        path: PathBuf,
+        /// The tetrahedron.
+        tetrahedron: usize,
+        /// Its corner.
+        vertex: VertexId,
+        /// How many vertices there are.
+        vertices: usize,
+    },
     /// There are not as many normals as vertices.
     #[error("{}: not written: {normals} normals for {vertices} vertices", .path.display())]
     NormalCount {

@@ -39,6 +39,7 @@ mod source;
 mod stl;
 mod table;
 mod text;
+mod volume;
 mod write;
 
 pub use error::{Content, Error, Location};
@@ -47,4 +48,5 @@ pub use read::{
     Data, Read, ReadMesh, ReadOptions, ReadPoints, read, read_from, read_mesh, read_points,
 };
 pub use report::{Note, ReadReport, WriteReport};
+pub use volume::{VolumeFormat, write_tetrahedra};
 pub use write::{Encoding, Overwrite, Pixels, WriteOptions, write_mesh, write_png, write_points};
