@@ -114,7 +114,7 @@ fn differences<const D: usize, const N: usize>(
     for part in parts.iter().flatten().chain(&last) {
         if part.mantissa != 0 {
             low = low.min(part.exponent);
-            top = top.max(part.exponent + 53);
+            top = top.max(part.exponent + part.mantissa.unsigned_abs().ilog2() as i32 + 1);
         }
     }
     if i64::from(top) - i64::from(low) > i64::from(COORDINATE_BITS) {

@@ -139,6 +139,44 @@ fn lattices_hold_their_largest_values() {
     assert_eq!(decided, 58 * 24 * 8);
 }
 
+/// Differences of just 75 bits and more, in units that the last bits of the query set.
+#[test]
+fn fixed_width_holds_its_largest_values() {
+    let corner = |i: u32| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64);
+    let mut decided = 0;
+    for bits in 70..=100 {
+        let side = f64::powi(2.0, bits);
+        for i in 0..8_u32.pow(4) {
+            let [a, b, c, d] = std::array::from_fn(|k| corner(i >> (3 * k) & 7) * side);
+            let orientation = orient3d(a, b, c, d);
+            if orientation == Sign::Zero {
+                continue;
+            }
+            // Near one corner, outside by one unit and inside by one; then far inside.
+            let inside = DVec3::new(1.0, side / 2.0, side / 2.0);
+            for (e, sign) in [
+                (-DVec3::X, -orientation),
+                (DVec3::X, orientation),
+                (inside, orientation),
+            ] {
+                let fixed = fixed::insphere(a, b, c, d, e);
+                assert!(fixed.is_none_or(|fixed| fixed == sign), "2^{bits} {i} {e}");
+                // At 75 it depends on whether a difference reaches the full side.
+                assert!(bits == 75 || fixed.is_some() == (bits < 75), "2^{bits}");
+                decided += u32::from(fixed.is_some());
+                if i % 97 == 0 {
+                    assert_eq!(exact::insphere(a, b, c, d, e), sign);
+                }
+            }
+            let e = DVec3::new(1.0, 1.0, side);
+            assert!(
+                fixed::orient3d(a, b, c, e).is_none_or(|sign| sign == exact::orient3d(a, b, c, e))
+            );
+        }
+    }
+    assert!(decided >= 5 * 3 * 58 * 24, "{decided}");
+}
+
 #[test]
 fn fixed_width_decides_rounded_spheres() {
     let sphere = [
