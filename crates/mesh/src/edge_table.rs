@@ -76,7 +76,17 @@ pub(crate) fn origin(triangles: &[[VertexId; 3]], h: HalfEdgeId) -> VertexId {
     triangles.as_flattened()[h.0 as usize]
 }
 
-/// The twin of the only pair of half-edges of an edge that a manifold may have: two, in opposite
+/// The corner (as the half-edge that leaves it) of a half-edge's triangle at one end of its edge.
+#[inline]
+pub(crate) fn corner_at(triangles: &[[VertexId; 3]], h: HalfEdgeId, end: VertexId) -> HalfEdgeId {
+    if origin(triangles, h) == end {
+        h
+    } else {
+        h.next()
+    }
+}
+
+/// The half-edges of an edge as an oriented manifold has them where there is no border: two, in opposite
 /// directions.
 #[inline]
 pub(crate) fn twins_of(

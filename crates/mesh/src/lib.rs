@@ -3,7 +3,9 @@
 
 mod edge_table;
 mod error;
+mod frame;
 mod id;
+mod measure;
 mod self_intersection;
 mod soup;
 mod split;
@@ -13,6 +15,7 @@ mod validate;
 
 pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};
+pub use measure::{Component, Shape, Summary, area, signed_volume, summarize};
 pub use self_intersection::{count_self_intersections, self_intersections, triangles_intersect};
 pub use soup::{MeshView, TriangleSoup, VertexRemap};
 pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};

@@ -1,6 +1,6 @@
 //! The total validator: every defect, by id.
 
-use crate::edge_table::{EdgeTable, origin};
+use crate::edge_table::{EdgeTable, corner_at, origin};
 use crate::union_find::UnionFind;
 use crate::{HalfEdgeId, MeshView, TriangleId};
 use pellicle_geometry::{DVec2, DVec3, VertexId};
@@ -177,14 +177,6 @@ pub(crate) fn umbrellas(
     mut glues: impl FnMut(&[crate::edge_table::Entry]) -> bool,
 ) -> UnionFind {
     let mut corners = UnionFind::new(3 * mesh.triangles.len());
-    // The corner of half-edge h at the end `v` of its edge: h itself where it leaves v, else its next.
-    let corner_at = |h: HalfEdgeId, v: VertexId| {
-        if origin(mesh.triangles, h) == v {
-            h
-        } else {
-            h.next()
-        }
-    };
     for (edge, group) in table.edges() {
         if !glues(group) {
             continue;
@@ -192,8 +184,8 @@ pub(crate) fn umbrellas(
         for pair in group.windows(2) {
             for v in edge {
                 corners.union(
-                    corner_at(pair[0].half_edge, v).0,
-                    corner_at(pair[1].half_edge, v).0,
+                    corner_at(mesh.triangles, pair[0].half_edge, v).0,
+                    corner_at(mesh.triangles, pair[1].half_edge, v).0,
                 );
             }
         }
