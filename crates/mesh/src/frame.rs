@@ -35,6 +35,10 @@ impl Frame {
         let half = p * 0.5 - self.center * 0.5;
         half / self.scale * 2.0
     }
+
+    pub(crate) fn restore(self, p: DVec3) -> DVec3 {
+        p * self.scale + self.center
+    }
 }
 
 /// A sum with its rounding error carried along (Neumaier 1974).

@@ -1,6 +1,38 @@
 //! Triangle meshes: a soup of triangles, and the oriented manifold that it may become.
+//!
+//! # Data
+//!
+//! - [`TriangleSoup`]: positions and triangles, nothing promised. What a file holds.
+//! - [`TriMesh`]: the same with half-edge connectivity. Its fields are private: a value of the type is an
+//!   oriented manifold, with or without borders.
+//! - [`MeshView`]: either of them, borrowed. What everything that only reads takes.
+//!
+//! # Verbs
+//!
+//! - [`TriMesh::try_from`] refuses what is no manifold and names every [`Defect`];
+//!   [`TriMesh::from_soup_splitting`] cuts it until it is one, and reports the cuts.
+//! - [`validate()`] lists all defects; [`summarize`] measures; [`self_intersections`] finds triangles that meet
+//!   where they should not, exactly; [`compare`] measures distances.
+//!
+//! ```
+//! use pellicle_geometry::{DVec3, VertexId};
+//! use pellicle_mesh::{TriMesh, TriangleSoup, self_intersections, summarize};
+//!
+//! let soup = TriangleSoup {
+//!     positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+//!     triangles: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|t| t.map(VertexId)).to_vec(),
+//! };
+//! let mesh = TriMesh::try_from(soup)?;
+//! let summary = summarize((&mesh).into())?;
+//! assert!(mesh.is_closed() && summary.genus() == Some(0));
+//! assert!(self_intersections((&mesh).into(), &())?.is_empty());
+//! # Ok::<(), pellicle_mesh::MeshError>(())
+//! ```
+//!
+//! Triangles are counter-clockwise seen from outside.
 #![forbid(unsafe_code)]
 
+mod distance;
 mod edge_table;
 mod error;
 mod frame;
@@ -13,6 +45,7 @@ mod trimesh;
 mod union_find;
 mod validate;
 
+pub use distance::{Comparison, DistanceOptions, Distances, compare, distances};
 pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};
 pub use measure::{Component, Shape, Summary, area, signed_volume, summarize};

@@ -241,7 +241,7 @@ fn volume_in_units(six_times: Sum, frame: Frame) -> f64 {
 }
 
 /// The usable triangles with finite corners.
-fn measurable(mesh: MeshView) -> impl Iterator<Item = (usize, [DVec3; 3])> {
+pub(crate) fn measurable(mesh: MeshView) -> impl Iterator<Item = (usize, [DVec3; 3])> {
     let corners = move |t: usize| {
         let corners = mesh.corners(TriangleId::new(t))?;
         let good = mesh.is_usable(mesh.triangles[t]) && corners.iter().all(|p| p.is_finite());

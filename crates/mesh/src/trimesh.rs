@@ -287,6 +287,7 @@ impl TriMesh {
             }
         }
         defects.sort();
+        defects.dedup();
         defects
     }
 }
@@ -373,3 +374,6 @@ fn outgoing(
     }
     outgoing
 }
+
+#[cfg(test)]
+mod tests;
