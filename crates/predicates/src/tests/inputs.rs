@@ -103,7 +103,9 @@ fn near_sphere() -> BoxedStrategy<Points> {
 /// Exactly on a sphere: signed permutations of one integer vector about a centre. In the plane the first
 /// two coordinates lie on a circle when the third does not take part.
 fn sphere_of_integers() -> BoxedStrategy<Points> {
-    let vector = [0..40_i32, 0..40_i32, 0..40_i32];
+    // From what doubles evaluate exactly to what needs more than 128 bits.
+    let size = prop_oneof![Just(40_i32), Just(2_000), Just(1 << 20), Just(1 << 28)];
+    let vector = size.prop_flat_map(|n| [0..n, 0..n, 0..n]);
     let images = proptest::array::uniform5((0..6_usize, 0..8_u32));
     (vector, images, any::<bool>(), -9..9_i32)
         .prop_map(|(v, images, flat, center)| {
@@ -125,6 +127,20 @@ fn sphere_of_integers() -> BoxedStrategy<Points> {
                 }
                 DVec3::from_array(image.map(|c| f64::from(c + center)))
             })
+        })
+        .boxed()
+}
+
+/// Exactly on a line or in a plane, in integers.
+fn flat_integers() -> BoxedStrategy<Points> {
+    let size = prop_oneof![Just(20_i32), Just(2_000), Just(1 << 20)];
+    let vectors = size.prop_flat_map(|n| [[-n..n, -n..n, -n..n], [-n..n, -n..n, -n..n]]);
+    let weights = proptest::array::uniform5([-9..=9_i32, -9..=9_i32]);
+    (vectors, weights, any::<bool>())
+        .prop_map(|(vectors, weights, line)| {
+            let [p, q] = vectors.map(|v| DVec3::from_array(v.map(f64::from)));
+            let q = if line { DVec3::ZERO } else { q };
+            weights.map(|[s, t]| f64::from(s) * p + f64::from(t) * q)
         })
         .boxed()
 }
@@ -169,6 +185,8 @@ pub(super) fn points() -> BoxedStrategy<Points> {
         near_flat(),
         nudged(near_flat()),
         near_sphere(),
+        flat_integers(),
+        nudged(flat_integers()),
         sphere_of_integers(),
         nudged(sphere_of_integers()),
         shifted(),
