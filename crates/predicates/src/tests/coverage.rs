@@ -139,6 +139,49 @@ fn lattices_hold_their_largest_values() {
     assert_eq!(decided, 58 * 24 * 8);
 }
 
+/// Signed permutations of one vector are cospherical, whatever its size: where doubles begin to round,
+/// integers must have taken over.
+#[test]
+fn cospherical_integers_of_every_size() {
+    let orders = [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ];
+    for bits in 4..=23 {
+        let size = f64::powi(2.0, bits);
+        let v = [0.97, 0.61, 0.34].map(|c| (c * size / 2.0).round());
+        let image = |k: usize| {
+            let mut p = orders[k % 6].map(|i| v[i]);
+            for (axis, coordinate) in p.iter_mut().enumerate() {
+                *coordinate *= [1.0, -1.0][k / 6 >> axis & 1];
+            }
+            DVec3::from_array(p)
+        };
+        for k in 0..2000 {
+            let [a, b, c, d, e] =
+                [k, 7 * k + 1, 11 * k + 5, 17 * k + 9, 29 * k + 40].map(|k| image(k % 48));
+            if a != e {
+                assert_eq!(
+                    lattice::insphere(a, b, c, d, e),
+                    Some(Sign::Zero),
+                    "2^{bits}"
+                );
+            }
+            // On one circle: the images that permute and turn x and y alone.
+            let [a, b, c, d] =
+                [a, b, c, d].map(|p| DVec2::new(p.x.signum() * v[0], p.y.signum() * v[1]));
+            let d = DVec2::new(d.y, d.x);
+            if a != d {
+                assert_eq!(lattice::incircle(a, b, c, d), Some(Sign::Zero), "2^{bits}");
+            }
+        }
+    }
+}
+
 /// Differences of just 75 bits and more, in units that the last bits of the query set.
 #[test]
 fn fixed_width_holds_its_largest_values() {
