@@ -157,7 +157,7 @@ fn cospherical_integers_of_every_size() {
         let image = |k: usize| {
             let mut p = orders[k % 6].map(|i| v[i]);
             for (axis, coordinate) in p.iter_mut().enumerate() {
-                *coordinate *= [1.0, -1.0][k / 6 >> axis & 1];
+                *coordinate *= [1.0, -1.0][((k / 6) >> axis) & 1];
             }
             DVec3::from_array(p)
         };

@@ -206,7 +206,7 @@ fn some_four_span(p: [DVec3; 5]) -> bool {
 fn fewer() -> ProptestConfig {
     let config = config();
     ProptestConfig {
-        cases: config.cases / 4,
+        cases: config.cases / 8,
         ..config
     }
 }
