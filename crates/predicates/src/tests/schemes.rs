@@ -333,3 +333,19 @@ fn a_repeated_point_is_a_tie() {
     assert_eq!(world::incircle(a, b, c, a), Sign::Zero);
     assert_eq!(world::orient2d(a, b, b), Sign::Zero);
 }
+
+/// Sets of digits add and compare as the numbers that they stand for.
+#[test]
+fn exponents_are_numbers() {
+    use crate::polynomial::{Binary, Exponent};
+    let of = |n: u32| {
+        let digits = (0..32).filter(|i| n >> i & 1 == 1).map(Binary::power);
+        digits.fold(Binary::zero(), |sum, digit| sum.plus(&digit))
+    };
+    for x in 0..64 {
+        for y in 0..64 {
+            assert_eq!(of(x).plus(&of(y)), of(x + y));
+            assert_eq!(of(x).cmp(&of(y)), x.cmp(&y));
+        }
+    }
+}
