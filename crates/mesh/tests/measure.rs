@@ -237,6 +237,19 @@ proptest! {
     }
 }
 
+proptest! {
+    /// Orientability does not depend on how single triangles happen to face.
+    #[test]
+    fn orientability_survives_any_reversal(reversed in prop::collection::vec(any::<bool>(), 40)) {
+        for (mut soup, orientable) in [(moebius(20), false), (torus(2.0, 0.5, 5, 4), true)] {
+            for (triangle, _) in soup.triangles.iter_mut().zip(&reversed).filter(|(_, r)| **r) {
+                triangle.swap(0, 1);
+            }
+            prop_assert_eq!(summary(&soup).components[0].orientable, orientable);
+        }
+    }
+}
+
 #[test]
 fn vertices_that_are_not_finite_leave_the_rest_measured() {
     let mut bad = together(cube(), tetrahedron());

@@ -234,6 +234,13 @@ fn each_defect_is_named() {
             "{triangles:?}"
         );
     }
+    // Two triangles back to back: every edge and vertex is manifold.
+    let back_to_back = soup(five()[..3].to_vec(), &[[0, 1, 2], [0, 2, 1]]);
+    let duplicate = Defect::DuplicateTriangle {
+        triangle: t(1),
+        first: t(0),
+    };
+    assert_eq!(defects_of(back_to_back), [duplicate]);
     let mut not_finite = tetrahedron();
     not_finite.positions[2].y = f64::NAN;
     assert_eq!(defects_of(not_finite), [Defect::NotFinite { vertex: v(2) }]);
