@@ -1,1 +1,132 @@
-//! cocone
+//! The Cocone family: surfaces through points, without normals.
+#![forbid(unsafe_code)]
+
+mod candidates;
+mod canonical;
+mod error;
+mod facet_set;
+mod options;
+mod poles;
+mod prune;
+mod report;
+mod sheet;
+mod solid;
+mod tight;
+mod umbrella;
+mod walk;
+
+pub use error::Error;
+pub use options::{Acceptance, Method, Options};
+pub use report::Report;
+
+use candidates::Wishes;
+use canonical::Canonical;
+use pellicle_delaunay::Tetrahedralization;
+use pellicle_geometry::{Cancelled, Progress, VertexId};
+use pellicle_mesh::{OrientationPolicy, SplitOptions, TriMesh, TriangleSoup};
+use poles::Poles;
+use sheet::Triangles;
+
+/// A surface through points, and how it came about.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct Reconstruction {
+    /// The surface, counter-clockwise seen from outside.
+    pub mesh: TriMesh,
+    /// For each vertex of the mesh, the point it is.
+    pub vertices: Vec<VertexId>,
+    /// What was made of the points.
+    pub report: Report,
+}
+
+/// Reconstructs a surface through the points of a tetrahedralisation.
+pub fn reconstruct(
+    tetrahedralization: &Tetrahedralization,
+    options: &Options,
+) -> Result<Reconstruction, Error> {
+    reconstruct_with(tetrahedralization, options, &())
+}
+
+/// [`reconstruct`], watched by `progress`.
+pub fn reconstruct_with(
+    tetrahedralization: &Tetrahedralization,
+    options: &Options,
+    progress: &dyn Progress,
+) -> Result<Reconstruction, Error> {
+    let step = |done| Cancelled::check(progress.step("reconstruct", done, 5));
+    step(0)?;
+    let canonical = Canonical::of(tetrahedralization);
+    let poles = Poles::of(&canonical);
+    step(1)?;
+    let wishes = Wishes::of(&canonical, &poles);
+    let flat = wishes.flat(&canonical, &poles);
+    step(2)?;
+    let mut candidates = wishes.candidates(&canonical, &flat, options.acceptance);
+    drop((wishes, poles));
+    let candidate_triangles = candidates.len();
+    step(3)?;
+    prune::prune(&canonical, &flat, &mut candidates);
+    step(4)?;
+    let surface = walk::extract(&canonical, &candidates);
+    let (surface, moved_tetrahedra) = match options.method {
+        Method::Cocone => (surface, 0),
+        Method::TightCocone => tight::close(&canonical, surface.facets()),
+    };
+    let mut reconstruction = mesh(&canonical, surface.triangles(&canonical))?;
+    step(5)?;
+    let report = &mut reconstruction.report;
+    report.candidate_triangles = candidate_triangles;
+    report.pruned_triangles = candidate_triangles - candidates.len();
+    report.moved_tetrahedra = moved_tetrahedra;
+    report.undersampled = canonical
+        .vertex_ids()
+        .filter(|v| !flat[v.index()])
+        .map(|v| canonical.original(v))
+        .collect();
+    report.undersampled.sort_unstable();
+    Ok(reconstruction)
+}
+
+/// The mesh of the triangles, with a report of the points in it.
+fn mesh(canonical: &Canonical, triangles: Triangles) -> Result<Reconstruction, Error> {
+    let original = |vertex: &VertexId| canonical.original(*vertex);
+    let positions = canonical.original_points();
+    let soup = TriangleSoup {
+        positions: triangles
+            .vertices
+            .iter()
+            .map(|v| positions[original(v).index()])
+            .collect(),
+        triangles: triangles.triangles,
+    };
+    let options = SplitOptions {
+        orientation: OrientationPolicy::Keep,
+    };
+    let (mesh, split) = TriMesh::from_soup_splitting(soup, &options)?;
+    let vertices: Vec<VertexId> = split
+        .vertex_origin
+        .iter()
+        .map(|v| original(&triangles.vertices[v.index()]))
+        .collect();
+
+    let mut copies = vec![0_u32; positions.len()];
+    for vertex in &vertices {
+        copies[vertex.index()] += 1;
+    }
+    let with = |wanted: fn(u32) -> bool| -> Vec<VertexId> {
+        let ids = (0..copies.len()).filter(|&v| wanted(copies[v]));
+        ids.map(VertexId::new).collect()
+    };
+    let dropped = with(|copies| copies == 0);
+    let report = Report {
+        used: copies.len() - dropped.len(),
+        dropped,
+        split: with(|copies| copies > 1),
+        ..Report::default()
+    };
+    Ok(Reconstruction {
+        mesh,
+        vertices,
+        report,
+    })
+}

@@ -10,7 +10,7 @@ use glam::DVec3;
 /// Where the determinant suffers cancellation, as in slivers, all is computed again with twice as many
 /// digits, from the coordinates on: the relative error stays near 2⁻⁵³ times the condition number that is
 /// left after the first 53 bits.
-pub(crate) fn circumcenter(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<DVec3> {
+pub fn circumcenter(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<DVec3> {
     let [u, v, w] = [b - a, c - a, d - a];
     let size = u.abs().max(v.abs()).max(w.abs()).max_element();
     if !(SMALLEST..LARGEST).contains(&size) {

@@ -36,6 +36,7 @@ mod validate;
 mod voronoi;
 
 pub use circulate::{AroundEdge, AroundVertex};
+pub use circumcenter::circumcenter;
 pub use error::Error;
 pub use id::{FACET_CORNERS, FacetId, TetId};
 pub use options::{InsertionOrder, Options};
