@@ -6,11 +6,12 @@ use crate::source::Source;
 use crate::{Error, Location, Note};
 use glam::{DMat3, DMat4, DQuat};
 use pellicle_geometry::DVec3;
+use std::collections::HashMap;
 use std::io::Read as _;
 use std::path::Path;
 
-/// A scene may place a mesh many times. Up to so many vertices a byte of the file are believed.
-const MOST_VERTICES_PER_BYTE: u64 = 256;
+/// A scene may place a mesh many times. Up to so many vertices and corners a byte of the file are believed.
+const MOST_PER_BYTE: u64 = 8;
 
 pub(crate) fn read(
     source: &mut Source,
@@ -245,6 +246,7 @@ struct Placed {
     transformed: u64,
     lines: u64,
     without_positions: u64,
+    corners: u64,
 }
 
 impl Scene<'_, '_, '_> {
@@ -259,6 +261,7 @@ impl Scene<'_, '_, '_> {
             transformed: 0,
             lines: 0,
             without_positions: 0,
+            corners: 0,
         };
         if self.document.nodes.is_empty() {
             for mesh in 0..self.document.meshes.len() {
@@ -329,7 +332,7 @@ impl Scene<'_, '_, '_> {
             )));
         };
         // Primitives of a mesh may share their vertices.
-        let mut shared: Vec<([Option<usize>; 2], u32, u64)> = Vec::new();
+        let mut shared: HashMap<[Option<usize>; 2], (u32, u64)> = HashMap::new();
         for primitive in &mesh.primitives {
             match primitive.mode {
                 0 | 4..=6 => {}
@@ -344,14 +347,12 @@ impl Scene<'_, '_, '_> {
                 continue;
             };
             let key = [Some(position), primitive.attributes.normal];
-            let known = shared.iter().find(|(other, ..)| *other == key).copied();
-            let (_, first, count) = match known {
-                Some(known) => known,
-                None => {
-                    let (first, count) = self.vertices(key, matrix, placed)?;
-                    shared.push((key, first, count));
-                    (key, first, count)
-                }
+            let (first, count) = match shared.get(&key) {
+                Some(&known) => known,
+                None => *shared
+                    .entry(key)
+                    .insert_entry(self.vertices(key, matrix, placed)?)
+                    .get(),
             };
             if primitive.mode != 0 {
                 self.triangles(primitive, first, count, matrix, placed)?;
@@ -373,11 +374,7 @@ impl Scene<'_, '_, '_> {
         if total >= u64::from(u32::MAX) {
             return Err(self.source.too_many(total, "vertices"));
         }
-        if total > self.bytes().saturating_mul(MOST_VERTICES_PER_BYTE) {
-            return Err(self.wrong(format!(
-                "places its meshes so often that there are {total} vertices; this is taken for an error"
-            )));
-        }
+        self.believe(total, "vertices")?;
         for i in 0..view.count {
             let local = view.vector(i);
             let vertex = placed.contents.positions.len();
@@ -427,6 +424,8 @@ impl Scene<'_, '_, '_> {
             Some(accessor) => Some(self.accessor(accessor, "SCALAR")?),
         };
         let length = indices.as_ref().map_or(count, |view| view.count);
+        placed.corners += length;
+        self.believe(placed.corners, "corners")?;
         let corner = |i: u64| -> Result<u32, Error> {
             let index = match &indices {
                 None => i,
@@ -468,6 +467,15 @@ impl Scene<'_, '_, '_> {
             }
         }
         Ok(())
+    }
+
+    fn believe(&self, total: u64, what: &str) -> Result<(), Error> {
+        if total <= self.bytes().saturating_mul(MOST_PER_BYTE) {
+            return Ok(());
+        }
+        Err(self.wrong(format!(
+            "places its meshes so often that there are {total} {what}; this is taken for an error"
+        )))
     }
 
     /// The bytes of the file and its buffers.

@@ -1,0 +1,139 @@
+//! Reading takes at most 1.2 times the data held, at its peak: seen from outside, as the system counts it.
+#![cfg(target_os = "linux")]
+
+use pellicle_geometry::{DVec3, PointCloud, VertexId};
+use pellicle_io::{
+    Data, Encoding, Format, ReadOptions, WriteOptions, read, write_mesh, write_points,
+};
+use pellicle_mesh::TriangleSoup;
+use std::path::Path;
+use std::process::Command;
+
+/// Names the file to read, in the process that is measured.
+const FILE: &str = "PELLICLE_TEST_MEMORY_FILE";
+
+/// A line of the status of this process, in bytes.
+fn status(name: &str) -> usize {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap();
+    let line = status.lines().find(|line| line.starts_with(name)).unwrap();
+    line.split_whitespace()
+        .nth(1)
+        .unwrap()
+        .parse::<usize>()
+        .unwrap()
+        * 1024
+}
+
+/// Not a test of its own: what the measured process does.
+#[test]
+fn measured_process() {
+    let Some(path) = std::env::var_os(FILE) else {
+        return;
+    };
+    let before = status("VmRSS");
+    let read = read(Path::new(&path), &ReadOptions::default()).unwrap();
+    let peak = status("VmHWM") - before;
+    let vector = size_of::<DVec3>();
+    let held = match &read.data {
+        Data::Points(cloud) => vector * cloud.len() * (1 + usize::from(cloud.normals().is_some())),
+        Data::Mesh { soup, normals } => {
+            vector * (soup.positions.len() + normals.as_ref().map_or(0, Vec::len))
+                + size_of::<[VertexId; 3]>() * soup.triangles.len()
+        }
+    };
+    println!("ratio {}", peak as f64 / held as f64);
+}
+
+fn ratio(path: &Path) -> f64 {
+    let output = Command::new(std::env::current_exe().unwrap())
+        .args(["--exact", "measured_process", "--nocapture"])
+        .env(FILE, path)
+        .output()
+        .unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    let at = text.find("ratio ").unwrap_or_else(|| panic!("{text}"));
+    text[at + 6..]
+        .split_whitespace()
+        .next()
+        .unwrap()
+        .parse()
+        .unwrap()
+}
+
+/// Lines get longer towards the end, so that an estimate from the start of the file would be wrong.
+fn position(i: usize) -> DVec3 {
+    let x = if i % 3 == 0 {
+        i as f64
+    } else {
+        (i as f64).sqrt()
+    };
+    DVec3::new(x, (i % 1000) as f64, 0.5)
+}
+
+#[test]
+fn peak_of_points() {
+    let place = tempfile::tempdir().unwrap();
+    let positions: Vec<DVec3> = (0..600_000).map(position).collect();
+    let normals = positions.iter().map(|p| p.normalize_or(DVec3::Z)).collect();
+    let plain = PointCloud::new(positions).unwrap();
+    let oriented = plain.clone().with_normals(normals).unwrap();
+    for (format, encoding) in [
+        (Format::Xyz, Encoding::Text),
+        (Format::Csv, Encoding::Text),
+        (Format::Obj, Encoding::Text),
+        (Format::Off, Encoding::Text),
+        (Format::Ply, Encoding::Text),
+        (Format::Ply, Encoding::Binary),
+        (Format::Pcd, Encoding::Binary),
+    ] {
+        for cloud in [&plain, &oriented] {
+            let path = place.path().join(format!("a.{}", format.extensions()[0]));
+            let options = WriteOptions {
+                encoding,
+                overwrite: pellicle_io::Overwrite::Replace,
+                ..Default::default()
+            };
+            write_points(&path, cloud, &options).unwrap();
+            let ratio = ratio(&path);
+            assert!(
+                ratio > 0.9,
+                "{format} {encoding:?}: measured nothing: {ratio}"
+            );
+            assert!(ratio <= 1.2, "{format} {encoding:?}: {ratio}");
+        }
+    }
+}
+
+#[test]
+fn peak_of_meshes() {
+    let place = tempfile::tempdir().unwrap();
+    // A torus: twice as many triangles as vertices.
+    let (m, n) = (800u32, 500u32);
+    let id = |i: u32, j: u32| VertexId((i % m) * n + j % n);
+    let angle = |k: u32, of: u32| std::f64::consts::TAU * f64::from(k) / f64::from(of);
+    let mut soup = TriangleSoup::default();
+    for i in 0..m {
+        for j in 0..n {
+            let ((sa, ca), (sb, cb)) = (angle(i, m).sin_cos(), angle(j, n).sin_cos());
+            soup.positions
+                .push(DVec3::new((3.0 + cb) * ca, (3.0 + cb) * sa, sb));
+            soup.triangles
+                .push([id(i, j), id(i + 1, j), id(i + 1, j + 1)]);
+            soup.triangles
+                .push([id(i, j), id(i + 1, j + 1), id(i, j + 1)]);
+        }
+    }
+    // STL keeps a table to find equal corners; GLB is held while it is read.
+    for (format, most) in [
+        (Format::Ply, 1.2),
+        (Format::Off, 1.2),
+        (Format::Obj, 1.2),
+        (Format::Stl, 1.7),
+        (Format::Glb, 2.0),
+    ] {
+        let path = place.path().join(format!("a.{}", format.extensions()[0]));
+        write_mesh(&path, &soup, None, &WriteOptions::default()).unwrap();
+        let ratio = ratio(&path);
+        assert!(ratio > 0.9 && ratio <= most, "{format}: {ratio}");
+    }
+}
