@@ -203,8 +203,10 @@ impl Table {
         }
         if !self.started {
             self.separator = Separator::detect(text, self.format);
+            // With names known, the first column may be a text of no interest.
+            let named = self.layout.as_ref().is_some_and(|l| l.names_line);
             let first = self.separator.fields(text).next().unwrap_or_default();
-            if self.separator.number(first).is_none() {
+            if !named && self.separator.number(first).is_none() {
                 return self.names(source, text);
             }
             self.start(source, text)?;
@@ -242,7 +244,7 @@ impl Table {
 
     fn names(&mut self, source: &Source, text: &[u8]) -> Result<(), Error> {
         let named = Layout::of_names(text, self.format);
-        if named.is_none() || self.layout.as_ref().is_some_and(|l| l.names_line) {
+        if named.is_none() {
             return Err(source.at_line(format!(
                 "{} is neither a row of numbers nor names of columns with x, y and z among them",
                 shown(text)

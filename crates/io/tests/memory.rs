@@ -62,7 +62,7 @@ fn ratio(path: &Path) -> f64 {
 
 /// Lines get longer towards the end, so that an estimate from the start of the file would be wrong.
 fn position(i: usize) -> DVec3 {
-    let x = if i % 3 == 0 {
+    let x = if i.is_multiple_of(3) {
         i as f64
     } else {
         (i as f64).sqrt()
