@@ -361,3 +361,20 @@ fn found_files_are_survived() {
     }
     assert!(count > 0);
 }
+
+/// Puts the seeds where `cargo fuzz` looks for them.
+#[test]
+#[ignore = "writes the corpus of the fuzz targets"]
+fn write_corpus() {
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus");
+    for (i, (format, bytes)) in seeds().iter().enumerate() {
+        let target = match format {
+            Format::Xyz | Format::Pts | Format::Pwn | Format::Csv => "table".into(),
+            Format::Glb => "gltf".into(),
+            other => other.to_string().to_lowercase(),
+        };
+        let folder = corpus.join(target);
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join(format!("seed_{i}")), bytes).unwrap();
+    }
+}

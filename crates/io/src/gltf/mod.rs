@@ -4,6 +4,8 @@
 //! from the origin would lose its place. The tests compare with it. The JSON and the buffers are held in memory
 //! while the mesh is made.
 
+mod accessor;
+mod buffers;
 mod document;
 mod read;
 mod write;

@@ -1,13 +1,14 @@
 //! From the scene to triangles.
 
-use super::document::{Accessor, Document, Node, Primitive};
+use super::accessor::{Component, View};
+use super::buffers;
+use super::document::{Document, Node, Primitive};
 use crate::contents::{Contents, Keep, push};
 use crate::source::Source;
 use crate::{Error, Location, Note};
 use glam::{DMat3, DMat4, DQuat};
 use pellicle_geometry::DVec3;
 use std::collections::HashMap;
-use std::io::Read as _;
 use std::path::Path;
 
 /// A scene may place a mesh many times. Up to so many vertices and corners a byte of the file are believed.
@@ -38,7 +39,7 @@ pub(crate) fn read(
     check_extensions(source, &document)?;
     let scene = Scene {
         source,
-        buffers: buffers(source, &document, binary, base)?,
+        buffers: buffers::load(source, &document, binary, base)?,
         document: &document,
     };
     scene.read(keep)
@@ -116,120 +117,6 @@ fn check_extensions(source: &Source, document: &Document) -> Result<(), Error> {
             format!("requires the extension {name:?}, which is not supported; export it without"),
         )),
     }
-}
-
-fn buffers(
-    source: &Source,
-    document: &Document,
-    mut binary: Option<Vec<u8>>,
-    base: Option<&Path>,
-) -> Result<Vec<Vec<u8>>, Error> {
-    let mut buffers = Vec::new();
-    for (i, buffer) in document.buffers.iter().enumerate() {
-        let wrong =
-            |reason: String| source.malformed(Location::File, format!("buffer {i} {reason}"));
-        let bytes = match &buffer.uri {
-            None => binary
-                .take()
-                .ok_or_else(|| wrong("has neither a name nor a chunk in this file".into()))?,
-            Some(uri) => match uri.strip_prefix("data:") {
-                Some(data) => data
-                    .split_once(";base64,")
-                    .and_then(|(_, text)| base64(text.as_bytes()))
-                    .ok_or_else(|| wrong("is a data URI that is not base64".into()))?,
-                None => external(source, uri, buffer.byte_length, base).map_err(wrong)?,
-            },
-        };
-        if (bytes.len() as u64) < buffer.byte_length {
-            return Err(wrong(format!(
-                "has {} bytes, and {} are stated; it is truncated",
-                bytes.len(),
-                buffer.byte_length
-            )));
-        }
-        buffers.push(bytes);
-    }
-    Ok(buffers)
-}
-
-/// A buffer in a file beside this one, or below.
-fn external(
-    source: &Source,
-    uri: &str,
-    length: u64,
-    base: Option<&Path>,
-) -> Result<Vec<u8>, String> {
-    let name = percent_decoded(uri).ok_or_else(|| format!("has a broken name {uri:?}"))?;
-    let path = Path::new(&name);
-    let below = path.components().all(|part| {
-        matches!(
-            part,
-            std::path::Component::Normal(_) | std::path::Component::CurDir
-        )
-    });
-    if !below || name.contains(':') {
-        return Err(format!(
-            "is at {name:?}; only files in the directory of this one are opened"
-        ));
-    }
-    let Some(base) = base else {
-        return Err(format!(
-            "is in another file, {name:?}, which is not opened here"
-        ));
-    };
-    let full = base.join(path);
-    let mut bytes = Vec::new();
-    let file = std::fs::File::open(&full)
-        .map_err(|e| format!("cannot be opened as {}: {e}", full.display()))?;
-    let regular = file.metadata().is_ok_and(|metadata| metadata.is_file());
-    if !regular {
-        return Err(format!("is at {}, which is no file", full.display()));
-    }
-    file.take(length)
-        .read_to_end(&mut bytes)
-        .map_err(|e| format!("cannot be read from {}: {e}", full.display()))?;
-    tracing::debug!(path = %source.path().display(), buffer = %full.display(), "buffer read");
-    Ok(bytes)
-}
-
-fn percent_decoded(uri: &str) -> Option<String> {
-    let mut bytes = Vec::new();
-    let mut rest = uri.bytes();
-    while let Some(byte) = rest.next() {
-        bytes.push(match byte {
-            b'%' => {
-                let digit = |b: u8| char::from(b).to_digit(16);
-                (digit(rest.next()?)? * 16 + digit(rest.next()?)?) as u8
-            }
-            other => other,
-        });
-    }
-    String::from_utf8(bytes).ok()
-}
-
-fn base64(text: &[u8]) -> Option<Vec<u8>> {
-    let text = text.trim_ascii();
-    let text = text.strip_suffix(b"=").unwrap_or(text);
-    let text = text.strip_suffix(b"=").unwrap_or(text);
-    let mut bytes = Vec::with_capacity(text.len() / 4 * 3 + 3);
-    for group in text.chunks(4) {
-        let mut bits = 0u32;
-        for &letter in group {
-            let value = match letter {
-                b'A'..=b'Z' => letter - b'A',
-                b'a'..=b'z' => letter - b'a' + 26,
-                b'0'..=b'9' => letter - b'0' + 52,
-                b'+' | b'-' => 62,
-                b'/' | b'_' => 63,
-                _ => return None,
-            };
-            bits = bits << 6 | u32::from(value);
-        }
-        bits <<= 6 * (4 - group.len());
-        let [_, a, b, c] = bits.to_be_bytes();
-        bytes.extend(&[a, b, c][..group.len() - 1]);
-    }
-    Some(bytes)
 }
 
 struct Scene<'s, 'a, 'd> {
@@ -563,74 +450,4 @@ fn local_matrix(node: &Node) -> DMat4 {
             DMat3::from_quat(rotation)
                 * DMat3::from_diagonal(node.scale.map_or(DVec3::ONE, DVec3::from_array)),
         )
-}
-
-/// The type of one component.
-#[derive(Clone, Copy)]
-struct Component {
-    kind: u64,
-    normalized: bool,
-}
-
-impl Component {
-    fn new(accessor: &Accessor) -> Option<Self> {
-        let kind = accessor.component_type;
-        matches!(kind, 5120..=5123 | 5125 | 5126).then_some(Self {
-            kind,
-            normalized: accessor.normalized,
-        })
-    }
-
-    fn size(self) -> u64 {
-        match self.kind {
-            5120 | 5121 => 1,
-            5122 | 5123 => 2,
-            _ => 4,
-        }
-    }
-
-    /// Normalised integers span -1 to 1, or 0 to 1.
-    fn decode(self, b: &[u8]) -> f64 {
-        let (value, most) = match self.kind {
-            5120 => (f64::from(b[0] as i8), 127.0),
-            5121 => (f64::from(b[0]), 255.0),
-            5122 => (f64::from(i16::from_le_bytes([b[0], b[1]])), 32767.0),
-            5123 => (f64::from(u16::from_le_bytes([b[0], b[1]])), 65535.0),
-            5125 => (
-                f64::from(u32::from_le_bytes([b[0], b[1], b[2], b[3]])),
-                4294967295.0,
-            ),
-            _ => return f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]])),
-        };
-        match self.normalized {
-            true => (value / most).max(-1.0),
-            false => value,
-        }
-    }
-}
-
-/// The bytes of an accessor, from its first item to the end of its last.
-struct View<'b> {
-    bytes: &'b [u8],
-    stride: usize,
-    count: u64,
-    component: Component,
-}
-
-impl View<'_> {
-    fn vector(&self, i: u64) -> DVec3 {
-        let item = &self.bytes[i as usize * self.stride..];
-        let size = self.component.size() as usize;
-        let [x, y, z] = [0, 1, 2].map(|axis| self.component.decode(&item[axis * size..]));
-        DVec3::new(x, y, z)
-    }
-
-    fn index(&self, i: u64) -> u64 {
-        let item = &self.bytes[i as usize * self.stride..];
-        let unsigned = Component {
-            normalized: false,
-            ..self.component
-        };
-        unsigned.decode(item) as u64
-    }
 }

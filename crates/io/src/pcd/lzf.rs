@@ -1,4 +1,4 @@
-//! LZF, the compression of Lehmann 2000 that PCD uses, decoded as a stream.
+//! LZF, the compression of Lehmann 2000, which PCD uses, decoded as a stream.
 //!
 //! ```text
 //! 000LLLLL  then L + 1 bytes as they are
