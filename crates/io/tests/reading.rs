@@ -766,9 +766,9 @@ fn pcd_that_is_broken() {
             &["\"3\""],
         ),
         (
-            b"FIELDS x\nSIZE 1\nTYPE F\n".to_vec(),
-            Location::Line(3),
-            &["\"F\""],
+            b"FIELDS x\nSIZE 1\nPOINTS 1\nDATA ascii\n".to_vec(),
+            Location::Line(4),
+            &["\"x\"", "float of 1 bytes"],
         ),
         (
             pcd("x y", "4 4", "F F", "1 1", 1, "ascii"),

@@ -152,6 +152,16 @@ impl Header {
                 .or(area)
                 .ok_or_else(|| source.at_line("the header states no POINTS"))?,
         };
+        if let Some(field) = fields
+            .iter()
+            .find(|field| field.kind == b'F' && field.size < 4)
+        {
+            return Err(source.at_line(format!(
+                "field {} is a float of {} bytes; 4 or 8 are known",
+                shown(field.name.as_bytes()),
+                field.size
+            )));
+        }
         let size = fields.iter().map(Field::bytes).sum::<usize>();
         if size > LARGEST_POINT {
             return Err(source.at_line(format!("a point of {size} bytes is not supported")));
@@ -196,7 +206,5 @@ fn set(field: &mut Field, keyword: &[u8], value: &[u8]) -> Option<()> {
         b"SIZE" => field.size = count(value).filter(|size| [1, 2, 4, 8].contains(size))? as usize,
         _ => field.count = count(value).filter(|&count| count <= LARGEST_POINT as u64)? as usize,
     }
-    // A float has four bytes or eight; while SIZE is read, TYPE is still to come.
-    let short_float = keyword == b"TYPE" && field.kind == b'F' && field.size < 4;
-    (!short_float).then_some(())
+    Some(())
 }
