@@ -2,23 +2,30 @@
 
 use crate::canonical::Canonical;
 use crate::facet_set::FacetSet;
+use crate::umbrella::Links;
+use crate::walk;
 use glam::DVec3;
 use pellicle_delaunay::FacetId;
 use pellicle_geometry::VertexId;
 use pellicle_predicates::{Sign, orient3d};
 
-/// Removes all candidates at sharp edges until no edge is sharp. Edges at a vertex that is not flat are
-/// left alone: there the surface may have its border, and the cascade must not eat it from there.
+/// Removes candidates at sharp edges, in cascade.
+///
+/// The chapter assumes a closed and densely sampled surface; on any other the cascade would eat the surface
+/// from its border inwards. Two things stop it here. An edge whose ends both lack a flat cell may be a
+/// border, and is left alone. And what a first walk finds to close around a flat vertex is what the walk
+/// is after: it is never removed.
 pub(crate) fn prune(canonical: &Canonical, flat: &[bool], candidates: &mut FacetSet) {
+    let protected = closed_around_vertices(canonical, flat, candidates);
     let mut pending: Vec<FacetId> = candidates.iter(canonical).collect();
     let mut around = Vec::new();
     while let Some(facet) = pending.pop() {
-        if !candidates.contains(facet) {
+        if !candidates.contains(facet) || protected.contains(facet) {
             continue;
         }
         for opposite in canonical.facet(facet) {
             let edge = edge_opposite(canonical.facet(facet), opposite);
-            if !edge.iter().all(|v| flat[v.index()]) {
+            if !edge.iter().any(|v| flat[v.index()]) {
                 continue;
             }
             around.clear();
@@ -27,7 +34,7 @@ pub(crate) fn prune(canonical: &Canonical, flat: &[bool], candidates: &mut Facet
             if !is_sharp(canonical, edge, &around) {
                 continue;
             }
-            for &side in &around {
+            for &side in around.iter().filter(|&&side| !protected.contains(side)) {
                 candidates.remove(canonical, side);
                 for opposite in canonical.facet(side) {
                     let turn = canonical.around_edge(side, opposite);
@@ -37,6 +44,20 @@ pub(crate) fn prune(canonical: &Canonical, flat: &[bool], candidates: &mut Facet
             break;
         }
     }
+}
+
+/// The triangles of a first walk that form a closed fan around a flat vertex, dead ends cut back.
+fn closed_around_vertices(canonical: &Canonical, flat: &[bool], candidates: &FacetSet) -> FacetSet {
+    let walked = walk::extract(canonical, candidates);
+    let facets: Vec<FacetId> = walked.facets().iter(canonical).collect();
+    let links = Links::of(canonical, &facets);
+    let mut closed = FacetSet::empty(canonical);
+    for vertex in canonical.vertex_ids().filter(|v| flat[v.index()]) {
+        for triangle in links.umbrella_without_dead_ends(vertex) {
+            closed.insert(canonical, facets[triangle as usize]);
+        }
+    }
+    closed
 }
 
 /// The edge from u to v of a triangle (u, v, `opposite`).

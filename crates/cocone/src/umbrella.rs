@@ -9,6 +9,8 @@ pub(crate) struct Links {
     /// By vertex, where its edges start in `edges`; one more at the end.
     starts: Vec<u32>,
     edges: Vec<[VertexId; 2]>,
+    /// By edge, the place of its triangle in the list of facets.
+    triangles: Vec<u32>,
 }
 
 impl Links {
@@ -24,15 +26,21 @@ impl Links {
         }
         let mut next = starts.clone();
         let mut edges = vec![[VertexId::NONE; 2]; 3 * facets.len()];
-        for &facet in facets {
+        let mut triangles = vec![0; 3 * facets.len()];
+        for (k, &facet) in facets.iter().enumerate() {
             let [a, b, c] = canonical.facet(facet);
             for (vertex, edge) in [(a, [b, c]), (b, [c, a]), (c, [a, b])] {
                 let place = &mut next[vertex.index()];
                 edges[*place as usize] = edge;
+                triangles[*place as usize] = k as u32;
                 *place += 1;
             }
         }
-        Self { starts, edges }
+        Self {
+            starts,
+            edges,
+            triangles,
+        }
     }
 
     /// How many triangles the vertex has.
@@ -42,8 +50,28 @@ impl Links {
 
     /// Whether the vertex's triangles form one closed fan: its link is a single simple cycle.
     pub(crate) fn is_umbrella(&self, vertex: VertexId) -> bool {
-        let range = self.starts[vertex.index()] as usize..self.starts[vertex.index() + 1] as usize;
-        is_simple_cycle(&self.edges[range])
+        is_simple_cycle(&self.edges[self.range(vertex)])
+    }
+
+    /// The triangles of the vertex, as places in the list of facets, that form an umbrella once dead ends
+    /// of its link are cut back, again and again; none where they do not.
+    pub(crate) fn umbrella_without_dead_ends(
+        &self,
+        vertex: VertexId,
+    ) -> impl Iterator<Item = u32> + '_ {
+        let range = self.range(vertex);
+        let triangles = &self.triangles[range.clone()];
+        let edges = &self.edges[range];
+        let mut left = without_dead_ends(edges);
+        let cycle: Vec<_> = left.iter().map(|&k| edges[k]).collect();
+        if !is_simple_cycle(&cycle) {
+            left.clear();
+        }
+        left.into_iter().map(|k| triangles[k])
+    }
+
+    fn range(&self, vertex: VertexId) -> std::ops::Range<usize> {
+        self.starts[vertex.index()] as usize..self.starts[vertex.index() + 1] as usize
     }
 }
 
@@ -77,6 +105,24 @@ fn is_simple_cycle(edges: &[[VertexId; 2]]) -> bool {
         length += 1;
     }
     length == edges.len()
+}
+
+/// The edges that are left when those with an end that no other edge has are removed, again and again.
+fn without_dead_ends(edges: &[[VertexId; 2]]) -> Vec<usize> {
+    let mut left: Vec<usize> = (0..edges.len()).collect();
+    loop {
+        let mut ends: Vec<VertexId> = left.iter().flat_map(|&k| edges[k]).collect();
+        ends.sort_unstable();
+        let has_others = |end: VertexId| {
+            let place = ends.partition_point(|&other| other < end);
+            ends.get(place + 1) == Some(&end)
+        };
+        let before = left.len();
+        left.retain(|&k| edges[k].into_iter().all(has_others));
+        if left.len() == before {
+            return left;
+        }
+    }
 }
 
 #[cfg(test)]
