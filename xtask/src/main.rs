@@ -1,7 +1,9 @@
 //! Orchestration: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask bench`. Uses no crate of the workspace.
 #![forbid(unsafe_code)]
 
+mod bench;
 mod ci;
+mod picture;
 mod readme;
 mod tidy;
 
@@ -16,6 +18,9 @@ usage: cargo xtask <task>
 
   ci      format, clippy, rustdoc, tidy, and the test command of README.md
   tidy    the checks of the house: floors, printing, lengths, citations, paths, fixtures
+  picture the README's commands, and the picture that they make
+  bench --table                     every fixture reconstructed: docs/benchmarks/fixtures.md
+  bench --delaunay [KIND:COUNT …]   against CGAL, if installed: docs/benchmarks/delaunay.md
 ";
 
 fn main() -> ExitCode {
@@ -24,6 +29,8 @@ fn main() -> ExitCode {
     let outcome = match words.as_slice() {
         ["ci"] => ci::run(&root()),
         ["tidy"] => tidy::run(&root()),
+        ["picture"] => picture::run(&root()),
+        ["bench", arguments @ ..] => bench::run(&root(), arguments),
         _ => {
             eprint!("{USAGE}");
             return ExitCode::from(2);
@@ -72,4 +79,17 @@ fn execute(root: &Path, environment: &[(&str, &str)], words: &[&str]) -> Outcome
 /// The text of a file, with its name in the error.
 fn read(path: &Path) -> Result<String, String> {
     std::fs::read_to_string(path).map_err(|error| format!("{}: {error}", path.display()))
+}
+
+/// What cargo knows about the workspace's own packages, as JSON.
+fn cargo_metadata(root: &Path) -> Result<String, String> {
+    let output = Command::new("cargo")
+        .args(["metadata", "--no-deps", "--format-version", "1"])
+        .current_dir(root)
+        .output()
+        .map_err(|error| format!("cargo metadata: {error}"))?;
+    if !output.status.success() {
+        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
+    }
+    String::from_utf8(output.stdout).map_err(|error| format!("cargo metadata: {error}"))
 }

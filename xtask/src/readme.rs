@@ -1,7 +1,7 @@
 //! The commands that README.md tells its reader to run.
 
 /// The commands of the fenced `sh` blocks, one a line, comments and continuation lines resolved.
-pub fn shell_commands(readme: &str) -> Vec<String> {
+fn shell_commands(readme: &str) -> Vec<String> {
     let mut commands = Vec::new();
     let mut inside = false;
     let mut pending = String::new();
@@ -22,6 +22,13 @@ pub fn shell_commands(readme: &str) -> Vec<String> {
             }
         }
     }
+    commands
+}
+
+/// The commands that run the program.
+pub fn run_commands(readme: &str) -> Vec<String> {
+    let mut commands = shell_commands(readme);
+    commands.retain(|command| command.starts_with("cargo run"));
     commands
 }
 
@@ -62,6 +69,7 @@ cargo test --not-shell
             shell_commands(README),
             ["cargo run --release -- x -o y", "cargo test --workspace"]
         );
+        assert_eq!(run_commands(README), ["cargo run --release -- x -o y"]);
     }
 
     #[test]

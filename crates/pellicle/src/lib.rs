@@ -1,1 +1,190 @@
-//! pellicle
+//! Points to clean surfaces.
+//!
+//! **The data.** Points are a [`PointCloud`](geometry::PointCloud) or a plain `&[DVec3]`; triangles without a
+//! guarantee are a [`TriangleSoup`](mesh::TriangleSoup), and an oriented manifold is a [`TriMesh`](mesh::TriMesh);
+//! the tetrahedra between them are a [`Tetrahedralization`](delaunay::Tetrahedralization). Coordinates are
+//! [`glam::DVec3`], in the caller's units.
+//!
+//! **The verbs.** Each is a function of a module that takes an options struct with defaults. A surface through points
+//! takes two of them:
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! // 400 points on the unit sphere, along a spiral.
+//! let points: Vec<DVec3> = (0..400)
+//!     .map(|i| {
+//!         let z = 1.0 - (2.0 * f64::from(i) + 1.0) / 400.0;
+//!         let (sin, cos) = (2.399963 * f64::from(i)).sin_cos();
+//!         DVec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
+//!     })
+//!     .collect();
+//! let tetrahedra = tetrahedralize(&points, &delaunay::Options::default())?;
+//! let surface = reconstruct(&tetrahedra, &cocone::Options::default())?;
+//! assert!(surface.mesh.is_closed());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! The same points give the same result in any order and for any number of threads; everything combinatorial is
+//! decided by exact signs, so degenerate input (grids, cospherical or coplanar points, duplicates) is ordinary input.
+//!
+//! # Guide
+//!
+//! ## Read and write
+//!
+//! The extension names the format. A file appears under its name at once and complete, or not at all.
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("two.ply");
+//! let cloud = PointCloud::new(vec![DVec3::ZERO, DVec3::X])?;
+//! write_points(&path, &cloud, &WriteOptions::default())?;
+//! assert_eq!(read_points(&path, &ReadOptions::default())?.cloud, cloud);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! ## Tetrahedralise
+//!
+//! The Delaunay tetrahedra depend on the set of points alone, cospherical points included.
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! let cube: Vec<DVec3> = (0..8)
+//!     .map(|i| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64))
+//!     .collect();
+//! let tetrahedra = tetrahedralize(&cube, &delaunay::Options::default())?;
+//! assert!(tetrahedra.validate().is_empty());
+//! # Ok::<(), pellicle::delaunay::Error>(())
+//! ```
+//!
+//! ## Reconstruct a closed surface
+//!
+//! Cocone leaves open what the points do not support; Tight Cocone always returns the boundary of a solid.
+//!
+//! ```
+//! use pellicle::prelude::*;
+//! # let points: Vec<DVec3> = (0..60)
+//! #     .map(|i| DVec3::new(f64::from(i % 5), f64::from(i / 5 % 4), f64::from(i / 20)))
+//! #     .collect();
+//! let tetrahedra = tetrahedralize(&points, &delaunay::Options::default())?;
+//! let mut options = cocone::Options::default();
+//! options.method = cocone::Method::TightCocone;
+//! let surface = reconstruct(&tetrahedra, &options)?;
+//! assert!(surface.mesh.is_closed());
+//! // The point that each vertex of the mesh is:
+//! assert_eq!(points[surface.vertices[0].index()], surface.mesh.positions()[0]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! ## Measure a mesh
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! let tetrahedron = TriangleSoup {
+//!     positions: vec![DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z],
+//!     triangles: [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]].map(|t| t.map(VertexId)).to_vec(),
+//! };
+//! let summary = mesh::summarize((&tetrahedron).into())?;
+//! assert_eq!((summary.is_closed(), summary.genus()), (true, Some(0)));
+//! assert_eq!(mesh::count_self_intersections((&tetrahedron).into(), &())?, 0);
+//!
+//! // From an oriented manifold soup to the type that guarantees it.
+//! let tetrahedron = TriMesh::try_from(tetrahedron)?;
+//! assert!(tetrahedron.is_closed());
+//! # Ok::<(), pellicle::mesh::MeshError>(())
+//! ```
+//!
+//! ## Compare two surfaces
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! let cloud = [DVec3::ZERO, DVec3::X];
+//! let lifted = cloud.map(|p| p + 0.5 * DVec3::Z);
+//! let view = |positions| MeshView { positions, triangles: &[] };
+//! let comparison =
+//!     mesh::compare(view(&cloud), view(&lifted), &mesh::DistanceOptions::default(), &())?;
+//! assert_eq!(comparison.hausdorff(), 0.5);
+//! # Ok::<(), pellicle::mesh::MeshError>(())
+//! ```
+//!
+//! ## Draw
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! # let folder = tempfile::tempdir()?;
+//! # let path = folder.path().join("points.png");
+//! let options = render::Options { width: 320, height: 240, ..render::Options::default() };
+//! let image = render_points(&[DVec3::ZERO, DVec3::X, DVec3::Y], None, &options)?;
+//! let pixels = io::Pixels::Rgba(image.pixels.as_flattened());
+//! io::write_png(&path, image.width, image.height, pixels, &WriteOptions::default())?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! ## Watch long work, and stop it
+//!
+//! The `…_with` functions take a [`Progress`](geometry::Progress) observer; its `Break` ends the work with an error,
+//! never with half a result.
+//!
+//! ```
+//! use pellicle::delaunay::{Error, Options, tetrahedralize_with};
+//! use pellicle::prelude::*;
+//! use std::ops::ControlFlow;
+//!
+//! struct Stop;
+//! impl Progress for Stop {
+//!     fn step(&self, _stage: &'static str, _done: u64, _total: u64) -> ControlFlow<()> {
+//!         ControlFlow::Break(())
+//!     }
+//! }
+//! let points: Vec<DVec3> = (0..5000_u32)
+//!     .map(|i| DVec3::new(f64::from(i % 17), f64::from(i % 19), f64::from(i % 23)))
+//!     .collect();
+//! let stopped = tetrahedralize_with(&points, &Options::default(), &Stop);
+//! assert!(matches!(stopped, Err(Error::Cancelled(_))));
+//! ```
+#![forbid(unsafe_code)]
+
+pub use glam;
+pub use pellicle_cocone as cocone;
+pub use pellicle_delaunay as delaunay;
+pub use pellicle_geometry as geometry;
+pub use pellicle_io as io;
+pub use pellicle_mesh as mesh;
+pub use pellicle_predicates as predicates;
+pub use pellicle_render as render;
+pub use pellicle_spatial as spatial;
+
+/// What most programs need: the modules, the central types, and the verbs whose names stand for themselves.
+///
+/// ```
+/// use pellicle::prelude::*;
+/// let cloud = PointCloud::new(vec![DVec3::ZERO])?;
+/// assert_eq!(cloud.len(), 1);
+/// # Ok::<(), pellicle::geometry::CloudError>(())
+/// ```
+pub mod prelude {
+    pub use crate::cocone::{Reconstruction, reconstruct};
+    pub use crate::delaunay::{Tetrahedralization, tetrahedralize};
+    pub use crate::geometry::{Cancelled, DVec2, DVec3, PointCloud, Progress, VertexId};
+    pub use crate::io::{
+        ReadOptions, WriteOptions, read_mesh, read_points, write_mesh, write_points,
+    };
+    pub use crate::mesh::{MeshView, TriMesh, TriangleSoup};
+    pub use crate::render::{render_mesh, render_points};
+    pub use crate::{cocone, delaunay, geometry, io, mesh, render};
+}
+
+/// The examples of the READMEs, which compile and hold.
+#[cfg(doctest)]
+mod readmes {
+    #[doc = include_str!("../../../README.md")]
+    struct Workspace;
+    #[doc = include_str!("../README.md")]
+    struct Crate;
+}

@@ -130,3 +130,7 @@ pub fn render_points(
     cloud::check(points, normals)?;
     sheet::draw(&cloud::CloudScene::new(points, normals, options), options)
 }
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

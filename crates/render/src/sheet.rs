@@ -75,9 +75,18 @@ impl Layout {
         if count == 0 {
             return Err(Error::NoView);
         }
-        let columns = (1..=count)
-            .find(|columns| columns * columns >= count)
-            .unwrap_or(count);
+        // The number of columns that leaves a cell's shorter side longest; the fewest of those.
+        let shorter_side = |columns: usize| {
+            let (width, height) = (options.width as usize, options.height as usize);
+            (width / columns).min(height / count.div_ceil(columns))
+        };
+        let columns = (2..=count).fold(1, |best, columns| {
+            if shorter_side(columns) > shorter_side(best) {
+                columns
+            } else {
+                best
+            }
+        });
         let rows = count.div_ceil(columns);
         let layout = Self {
             columns,
@@ -300,14 +309,16 @@ mod tests {
     }
 
     #[test]
-    fn cells_are_near_square_in_number() {
-        for (views, columns, width, height) in [
-            (1, 1, 90, 60),
-            (2, 2, 45, 60),
-            (4, 2, 45, 30),
-            (5, 3, 30, 30),
+    fn cells_are_as_large_as_the_sheet_allows() {
+        for (views, sheet, columns, width, height) in [
+            (1, (90, 60), 1, 90, 60),
+            (2, (90, 60), 2, 45, 60),
+            (4, (90, 60), 2, 45, 30),
+            (5, (90, 60), 3, 30, 30),
+            (3, (90, 30), 3, 30, 30),
+            (3, (30, 90), 1, 30, 30),
         ] {
-            let found = layout(views, 90, 60).unwrap();
+            let found = layout(views, sheet.0, sheet.1).unwrap();
             assert_eq!(
                 (found.columns, found.width, found.height),
                 (columns, width, height)
@@ -318,7 +329,7 @@ mod tests {
     #[test]
     fn impossible_sheets_are_refused() {
         assert!(matches!(layout(0, 90, 60), Err(Error::NoView)));
-        for (views, width, height) in [(4, 1, 60), (1, 0, 0), (1, u32::MAX, 60)] {
+        for (views, width, height) in [(4, 1, 3), (1, 0, 0), (1, u32::MAX, 60)] {
             assert!(matches!(
                 layout(views, width, height),
                 Err(Error::Size { .. })

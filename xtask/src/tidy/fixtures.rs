@@ -7,32 +7,41 @@ const TABLE: &str = "fixtures/README.md";
 /// The licences under which a fixture may be committed.
 const LICENCES: [&str; 4] = ["CC0-1.0", "MIT", "BSD-3-Clause", "MIT OR Apache-2.0"];
 
-/// Compares the table with the names of the files under `fixtures/`.
-pub fn check(table: &str, files: &[String]) -> Vec<Finding> {
-    let rows: Vec<(usize, Vec<&str>)> = table
+/// The files that the table lists, in its order.
+pub fn listed(table: &str) -> Vec<String> {
+    rows(table)
+        .map(|(_, cells)| cells[1].trim_matches('`').to_owned())
+        .collect()
+}
+
+fn rows(table: &str) -> impl Iterator<Item = (usize, Vec<&str>)> {
+    table
         .lines()
         .enumerate()
         .filter(|(_, line)| line.starts_with("| `"))
         .map(|(index, line)| (index + 1, line.split('|').map(str::trim).collect()))
-        .collect();
+}
+
+/// Compares the table with the names of the files under `fixtures/`.
+pub fn check(table: &str, files: &[String]) -> Vec<Finding> {
     let mut findings = Vec::new();
     let mut listed = Vec::new();
-    for (line, cells) in &rows {
+    for (line, cells) in rows(table) {
         let name = cells[1].trim_matches('`');
         listed.push(name);
         if !files.iter().any(|file| file == name) {
-            findings.push(Finding::new(TABLE, *line, format!("no such file: {name}")));
+            findings.push(Finding::new(TABLE, line, format!("no such file: {name}")));
         }
         match cells.get(6) {
             Some(licence) if LICENCES.contains(licence) => {}
             _ => findings.push(Finding::new(
                 TABLE,
-                *line,
+                line,
                 format!("{name}: licence unknown"),
             )),
         }
         if cells.get(7).is_none_or(|source| source.is_empty()) {
-            findings.push(Finding::new(TABLE, *line, format!("{name}: no source")));
+            findings.push(Finding::new(TABLE, line, format!("{name}: no source")));
         }
     }
     for file in files {

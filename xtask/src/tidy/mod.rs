@@ -3,7 +3,7 @@
 
 mod citations;
 mod files;
-mod fixtures;
+pub mod fixtures;
 mod floors;
 mod lengths;
 mod manifests;
@@ -11,11 +11,10 @@ mod paths;
 mod printing;
 mod source;
 
-use crate::{Outcome, read};
+use crate::{Outcome, cargo_metadata, read};
 use files::Kind;
 use std::fmt;
 use std::path::Path;
-use std::process::Command;
 
 /// A broken rule, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -88,16 +87,4 @@ fn all_findings(root: &Path) -> Result<Vec<Finding>, String> {
         }
     }
     Ok(findings)
-}
-
-fn cargo_metadata(root: &Path) -> Result<String, String> {
-    let output = Command::new("cargo")
-        .args(["metadata", "--no-deps", "--format-version", "1"])
-        .current_dir(root)
-        .output()
-        .map_err(|error| format!("cargo metadata: {error}"))?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned());
-    }
-    String::from_utf8(output.stdout).map_err(|error| format!("cargo metadata: {error}"))
 }

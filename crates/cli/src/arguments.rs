@@ -1,0 +1,93 @@
+//! What can be said on the command line.
+
+use crate::commands::{
+    compare::Compare, convert::Convert, delaunay::Delaunay, info::Info, reconstruct::Reconstruct,
+    render::Render,
+};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+/// Turns measured points into clean surfaces.
+///
+/// The format of a file is known by its extension.
+#[derive(Debug, Parser)]
+#[command(name = "pellicle", version, after_help = EXIT_CODES)]
+pub struct Arguments {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+    /// What every verb understands.
+    #[command(flatten)]
+    pub global: Global,
+}
+
+const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted.";
+
+/// The verbs.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Reconstruct a surface from points
+    Reconstruct(Reconstruct),
+    /// Write the Delaunay tetrahedra of points, or their hull
+    Delaunay(Delaunay),
+    /// Say what a file holds: points, or a mesh and its defects
+    Info(Info),
+    /// Convert between formats
+    Convert(Convert),
+    /// Measure the distance between two surfaces
+    Compare(Compare),
+    /// Draw a mesh or points, from several sides, on one sheet
+    Render(Render),
+}
+
+/// What every verb understands.
+#[derive(Debug, Args)]
+pub struct Global {
+    /// Threads to use; as many as the machine has by default. The result does not depend on it
+    #[arg(long, global = true, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Say nothing but errors
+    #[arg(long, short, global = true)]
+    pub quiet: bool,
+    /// Print what was found or done as JSON on standard output
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// Whether to show how far the work is, on standard error
+    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    pub progress: ProgressWhen,
+}
+
+/// When to show a progress bar.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ProgressWhen {
+    /// If standard error is a terminal
+    Auto,
+    /// Always
+    Bar,
+    /// Never
+    None,
+}
+
+/// Where the result goes.
+#[derive(Debug, Args)]
+pub struct Target {
+    /// The file to write; its extension names the format
+    #[arg(long, short, value_name = "OUT")]
+    pub output: PathBuf,
+    /// Replace the file if it exists
+    #[arg(long)]
+    pub force: bool,
+    /// How numbers are written where the format leaves a choice
+    #[arg(long, value_name = "ENCODING", default_value = "binary")]
+    pub encoding: Encoding,
+}
+
+/// How numbers are written where the format leaves a choice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Encoding {
+    /// Bytes
+    Binary,
+    /// Text, with as many digits as read back to the same number
+    Text,
+}

@@ -1,0 +1,75 @@
+//! One module a verb: its arguments, and the calls of the library that it stands for.
+
+pub mod compare;
+pub mod convert;
+pub mod delaunay;
+pub mod info;
+pub mod reconstruct;
+pub mod render;
+
+use crate::arguments::{Global, Verb};
+use crate::failure::Failure;
+use crate::output::log_notes;
+use crate::progress::Watch;
+use pellicle::delaunay::{Options, Tetrahedralization, tetrahedralize_with};
+use pellicle::geometry::{DVec3, PointCloud};
+use pellicle::io::{self, Content, Format, ReadOptions};
+use std::path::Path;
+
+/// Does what the verb says.
+pub fn run(verb: Verb, global: &Global) -> Result<(), Failure> {
+    let watch = Watch::new(global);
+    match verb {
+        Verb::Reconstruct(verb) => verb.run(global, &watch),
+        Verb::Delaunay(verb) => verb.run(global, &watch),
+        Verb::Info(verb) => verb.run(global, &watch),
+        Verb::Convert(verb) => verb.run(global, &watch),
+        Verb::Compare(verb) => verb.run(global, &watch),
+        Verb::Render(verb) => verb.run(global, &watch),
+    }
+}
+
+fn read_options(watch: &Watch) -> ReadOptions<'_> {
+    ReadOptions {
+        progress: watch,
+        ..ReadOptions::default()
+    }
+}
+
+/// Reads points, and logs what the reader left out.
+fn read_points(path: &Path, watch: &Watch) -> Result<PointCloud, Failure> {
+    let read = io::read_points(path, &read_options(watch))?;
+    log_notes(path, &read.report.notes);
+    Ok(read.cloud)
+}
+
+/// Reads points or a mesh, and logs what the reader left out.
+fn read(path: &Path, watch: &Watch) -> Result<io::Read, Failure> {
+    let read = io::read(path, &read_options(watch))?;
+    log_notes(path, &read.report.notes);
+    Ok(read)
+}
+
+/// The tetrahedra of points, with their file in the error.
+fn tetrahedralize<'a>(
+    path: &Path,
+    points: &'a [DVec3],
+    watch: &Watch,
+) -> Result<Tetrahedralization<'a>, Failure> {
+    tetrahedralize_with(points, &Options::default(), watch).map_err(|reason| Failure::Delaunay {
+        path: path.to_owned(),
+        reason,
+    })
+}
+
+/// The extensions of the formats that hold `content`, and further ones, for messages.
+fn extensions(content: Content, further: &[&str]) -> String {
+    let names: Vec<&str> = Format::ALL
+        .into_iter()
+        .filter(|format| format.can_write(content))
+        .flat_map(|format| format.extensions())
+        .chain(further)
+        .copied()
+        .collect();
+    names.join(", ")
+}

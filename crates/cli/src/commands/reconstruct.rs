@@ -1,0 +1,104 @@
+//! `pellicle reconstruct`.
+
+use crate::arguments::{Global, Target};
+use crate::failure::Failure;
+use crate::output;
+use crate::progress::Watch;
+use clap::{Args, ValueEnum};
+use pellicle::cocone::{self, reconstruct_with};
+use pellicle::io::{Content, write_mesh};
+use serde::Serialize;
+use std::path::PathBuf;
+
+const EXAMPLE: &str = "\
+Examples:
+  pellicle reconstruct scan.xyz -o mesh.ply
+  pellicle reconstruct noisy.ply -o closed.obj --method tight-cocone";
+
+/// Reconstructs a surface from points.
+///
+/// The mesh's vertices are points of the input, unmoved. Normals are not needed and not used.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Reconstruct {
+    /// The points: any point or mesh format
+    #[arg(value_name = "IN")]
+    input: PathBuf,
+    #[command(flatten)]
+    target: Target,
+    /// How the surface is chosen among the Delaunay triangles
+    #[arg(long, value_name = "METHOD", default_value = "cocone")]
+    method: Method,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// The surface as far as the points support it; open where they do not
+    Cocone,
+    /// Always closed: the boundary of a solid
+    TightCocone,
+}
+
+#[derive(Serialize)]
+struct Done {
+    input: PathBuf,
+    output: PathBuf,
+    points: usize,
+    points_used: usize,
+    points_dropped: usize,
+    vertices: usize,
+    triangles: usize,
+    candidate_triangles: usize,
+    pruned_triangles: usize,
+    undersampled_points: usize,
+    closed: bool,
+    bytes: u64,
+}
+
+impl Reconstruct {
+    /// Reads points, tetrahedralises, reconstructs, writes.
+    pub fn run(self, global: &Global, watch: &Watch) -> Result<(), Failure> {
+        self.target.check(Content::Mesh)?;
+        let cloud = super::read_points(&self.input, watch)?;
+        let tetrahedralization = super::tetrahedralize(&self.input, cloud.positions(), watch)?;
+        let mut options = cocone::Options::default();
+        options.method = match self.method {
+            Method::Cocone => cocone::Method::Cocone,
+            Method::TightCocone => cocone::Method::TightCocone,
+        };
+        let reconstruction =
+            reconstruct_with(&tetrahedralization, &options, watch).map_err(|reason| {
+                Failure::Cocone {
+                    path: self.input.clone(),
+                    reason,
+                }
+            })?;
+        drop(tetrahedralization);
+        let (mesh, report) = (&reconstruction.mesh, &reconstruction.report);
+        let written = self
+            .target
+            .write(|| write_mesh(&self.target.output, mesh, None, &self.target.options(watch)))?;
+        tracing::info!(
+            "{} points, {} used; {} triangles, {}",
+            cloud.len(),
+            report.used,
+            mesh.triangles().len(),
+            if mesh.is_closed() { "closed" } else { "open" }
+        );
+        let done = Done {
+            points: cloud.len(),
+            points_used: report.used,
+            points_dropped: report.dropped.len(),
+            vertices: mesh.positions().len(),
+            triangles: mesh.triangles().len(),
+            candidate_triangles: report.candidate_triangles,
+            pruned_triangles: report.pruned_triangles,
+            undersampled_points: report.undersampled.len(),
+            closed: mesh.is_closed(),
+            input: self.input,
+            output: self.target.output,
+            bytes: written.bytes,
+        };
+        output::report(global, &done)
+    }
+}

@@ -1,0 +1,130 @@
+//! Everything that can end a run, and what helps.
+
+use miette::Diagnostic;
+use pellicle::geometry::Cancelled;
+use pellicle::{cocone, delaunay, io, mesh, render};
+use std::fmt;
+use std::path::PathBuf;
+
+/// Why the program failed.
+#[derive(Debug, thiserror::Error)]
+pub enum Failure {
+    /// A file was not read or not written.
+    #[error(transparent)]
+    File(#[from] io::Error),
+    /// Points have no tetrahedra.
+    #[error("{}: {reason}", .path.display())]
+    Delaunay {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: delaunay::Error,
+    },
+    /// Tetrahedra have no surface.
+    #[error("{}: {reason}", .path.display())]
+    Cocone {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: cocone::Error,
+    },
+    /// A mesh was not measured.
+    #[error("{}: {reason}", .path.display())]
+    Mesh {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: mesh::MeshError,
+    },
+    /// Two files were not compared.
+    #[error("{}, {}: {reason}", .first.display(), .second.display())]
+    Compare {
+        /// One file.
+        first: PathBuf,
+        /// The other.
+        second: PathBuf,
+        /// The reason.
+        reason: mesh::MeshError,
+    },
+    /// A picture was not drawn.
+    #[error("{}: {reason}", .path.display())]
+    Render {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: render::Error,
+    },
+    /// The output's extension does not name a format that can hold the result.
+    #[error("{}: {verb} cannot write this format; it writes {known}", .path.display())]
+    OutputFormat {
+        /// The file.
+        path: PathBuf,
+        /// The verb.
+        verb: &'static str,
+        /// The extensions that it can write.
+        known: String,
+    },
+    /// Standard output was not written.
+    #[error("standard output cannot be written: {0}")]
+    StandardOutput(std::io::Error),
+    /// Threads were not started.
+    #[error("cannot start threads: {0}")]
+    Threads(String),
+    /// Ctrl-C could not be listened for.
+    #[error("cannot listen for signals: {0}")]
+    Signals(String),
+    /// Ctrl-C.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl Failure {
+    /// Whether Ctrl-C is the reason.
+    pub fn is_interruption(&self) -> bool {
+        matches!(
+            self,
+            Self::Cancelled(_)
+                | Self::File(io::Error::Cancelled(_))
+                | Self::Delaunay {
+                    reason: delaunay::Error::Cancelled(_),
+                    ..
+                }
+                | Self::Cocone {
+                    reason: cocone::Error::Cancelled(_),
+                    ..
+                }
+                | Self::Mesh {
+                    reason: mesh::MeshError::Cancelled(_),
+                    ..
+                }
+                | Self::Compare {
+                    reason: mesh::MeshError::Cancelled(_),
+                    ..
+                }
+        )
+    }
+
+    fn advice(&self) -> Option<&'static str> {
+        Some(match self {
+            Self::File(io::Error::Exists { .. }) => "pass --force to replace it",
+            Self::File(io::Error::NoTriangles { .. }) => {
+                "make a mesh of the points first: pellicle reconstruct IN -o OUT"
+            }
+            Self::Delaunay { reason, .. } => match reason {
+                delaunay::Error::TooFewPoints { .. } => "a surface needs at least four points",
+                delaunay::Error::Collinear { .. } | delaunay::Error::Coplanar { .. } => {
+                    "flat data has no inside; a surface in space needs points off the plane"
+                }
+                _ => return None,
+            },
+            _ => return None,
+        })
+    }
+}
+
+impl Diagnostic for Failure {
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.advice()
+            .map(|advice| Box::new(advice) as Box<dyn fmt::Display>)
+    }
+}

@@ -1,0 +1,114 @@
+//! Standard output, and the checks of a file that is to be written.
+
+use crate::arguments::{Encoding, Global, Target};
+use crate::failure::Failure;
+use crate::interrupt;
+use crate::progress::Watch;
+use pellicle::io::{self, Content, Format, Note, Overwrite, WriteOptions, WriteReport};
+use serde::Serialize;
+use std::io::{ErrorKind, Write};
+use std::path::Path;
+
+/// Writes text to standard output. A reader that has gone is no failure.
+pub fn print(text: &str) -> Result<(), Failure> {
+    let mut output = std::io::stdout().lock();
+    match output
+        .write_all(text.as_bytes())
+        .and_then(|()| output.flush())
+    {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::StandardOutput(error)),
+        _ => Ok(()),
+    }
+}
+
+/// Writes a value to standard output as JSON.
+pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    let text = serde_json::to_string_pretty(value)
+        .map_err(|error| Failure::StandardOutput(error.into()))?;
+    print(&format!("{text}\n"))
+}
+
+/// Says as JSON what was done, if asked to.
+pub fn report(global: &Global, value: &impl Serialize) -> Result<(), Failure> {
+    if global.json {
+        print_json(value)
+    } else {
+        Ok(())
+    }
+}
+
+/// Logs what a reader or writer left out or changed.
+pub fn log_notes(path: &Path, notes: &[Note]) {
+    for note in notes {
+        tracing::warn!("{}: {note}", path.display());
+    }
+}
+
+impl Target {
+    /// How the library is to write it.
+    pub fn options<'a>(&self, watch: &'a Watch) -> WriteOptions<'a> {
+        WriteOptions {
+            overwrite: if self.force {
+                Overwrite::Replace
+            } else {
+                Overwrite::Refuse
+            },
+            encoding: match self.encoding {
+                Encoding::Binary => io::Encoding::Binary,
+                Encoding::Text => io::Encoding::Text,
+            },
+            progress: watch,
+            ..WriteOptions::default()
+        }
+    }
+
+    /// Fails early where writing `content` would fail late.
+    pub fn check(&self, content: Content) -> Result<(), Failure> {
+        let format = Format::from_path(&self.output)?;
+        if !format.can_write(content) {
+            return Err(Failure::File(io::Error::CannotHold {
+                path: self.output.clone(),
+                format,
+                what: content,
+            }));
+        }
+        self.check_place()
+    }
+
+    /// Fails early where the file exists, is a directory, or has no directory to stand in.
+    pub fn check_place(&self) -> Result<(), Failure> {
+        let path = self.output.clone();
+        if let Ok(metadata) = std::fs::metadata(&path) {
+            if metadata.is_dir() {
+                return Err(io::Error::Directory { path }.into());
+            }
+            if !self.force {
+                return Err(io::Error::Exists { path }.into());
+            }
+        }
+        match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
+                let reason = format!(
+                    "there is no directory {}; create it first",
+                    parent.display()
+                );
+                Err(Failure::File(io::Error::Io {
+                    path,
+                    action: "created",
+                    source: std::io::Error::new(ErrorKind::NotFound, reason),
+                }))
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Runs a writer, and logs what it could not keep.
+    pub fn write(
+        &self,
+        write: impl FnOnce() -> Result<WriteReport, io::Error>,
+    ) -> Result<WriteReport, Failure> {
+        let report = interrupt::while_writing(write)?;
+        log_notes(&self.output, &report.notes);
+        Ok(report)
+    }
+}

@@ -1,0 +1,106 @@
+//! Showing how far the work is, and stopping it.
+
+use crate::arguments::{Global, ProgressWhen};
+use crate::interrupt;
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use pellicle::geometry::Progress;
+use std::io::IsTerminal;
+use std::ops::ControlFlow;
+use std::sync::{Mutex, PoisonError};
+
+/// Watches the work: a bar on standard error if wanted, and Ctrl-C.
+pub struct Watch {
+    bar: Option<ProgressBar>,
+    stage: Mutex<&'static str>,
+}
+
+impl Watch {
+    /// The watch that the command line asks for.
+    pub fn new(global: &Global) -> Self {
+        let wanted = match global.progress {
+            ProgressWhen::Auto => !global.quiet && std::io::stderr().is_terminal(),
+            ProgressWhen::Bar => true,
+            ProgressWhen::None => false,
+        };
+        Self {
+            bar: wanted.then(bar),
+            stage: Mutex::new(""),
+        }
+    }
+}
+
+fn bar() -> ProgressBar {
+    // Drawn on any stream: `--progress bar` into a file shows what it would on a terminal.
+    let target = if std::io::stderr().is_terminal() {
+        ProgressDrawTarget::stderr()
+    } else {
+        ProgressDrawTarget::term_like(Box::new(Plain))
+    };
+    let style = ProgressStyle::with_template("{msg:>12} [{bar:40}] {percent:>3}% {elapsed}")
+        .unwrap_or_else(|_| ProgressStyle::default_bar());
+    ProgressBar::with_draw_target(None, target).with_style(style.progress_chars("=> "))
+}
+
+/// Standard error where it is no terminal: a line an update.
+#[derive(Debug)]
+struct Plain;
+
+impl indicatif::TermLike for Plain {
+    fn width(&self) -> u16 {
+        80
+    }
+    fn move_cursor_up(&self, _: usize) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn move_cursor_down(&self, _: usize) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn move_cursor_right(&self, _: usize) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn move_cursor_left(&self, _: usize) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn write_line(&self, line: &str) -> std::io::Result<()> {
+        self.write_str(line)
+    }
+    fn write_str(&self, text: &str) -> std::io::Result<()> {
+        let text = text.trim_end();
+        if !text.is_empty() {
+            eprintln!("{text}");
+        }
+        Ok(())
+    }
+    fn clear_line(&self) -> std::io::Result<()> {
+        Ok(())
+    }
+    fn flush(&self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Progress for Watch {
+    fn step(&self, stage: &'static str, done: u64, total: u64) -> ControlFlow<()> {
+        if interrupt::requested() {
+            return ControlFlow::Break(());
+        }
+        if let Some(bar) = &self.bar {
+            let mut shown = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+            if *shown != stage {
+                *shown = stage;
+                bar.set_message(stage);
+            }
+            bar.set_length(total);
+            bar.set_position(done);
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
+    }
+}

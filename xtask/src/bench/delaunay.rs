@@ -1,0 +1,232 @@
+//! `cargo xtask bench --delaunay`: our tetrahedralisation against CGAL's, where Debian's `libcgal-dev` is installed.
+
+use super::measured::{self, Measured, median};
+use crate::{Outcome, execute};
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+/// Runs of each program on each input, taken in turns.
+const ROUNDS: usize = 5;
+
+/// What `time_delaunay` can make: uniform in a cube, a bumpy sphere, an integer grid, a sphere rounded to integers.
+const INPUTS: [&str; 4] = [
+    "uniform:1000000",
+    "sphere:1000000",
+    "grid:1000000",
+    "rounded:200000",
+];
+
+/// One program on one input.
+#[derive(Default)]
+struct Runs {
+    seconds: Vec<f64>,
+    peak_bytes: u64,
+    points: u64,
+    tetrahedra: u64,
+}
+
+/// Both programs on one input.
+struct Compared {
+    input: String,
+    ours: Runs,
+    cgal: Runs,
+    same_set: bool,
+}
+
+/// Times the inputs, `KIND:COUNT` each, or those that [`INPUTS`] names; writes the page.
+pub fn run(root: &Path, inputs: &[&str]) -> Outcome {
+    let inputs = if inputs.is_empty() {
+        &INPUTS[..]
+    } else {
+        inputs
+    };
+    let (ours, scratch) = our_program(root)?;
+    let cgal = cgal_program(root, &scratch)?;
+    let compared = inputs
+        .iter()
+        .map(|input| compare(&ours, &cgal, &scratch, input))
+        .collect::<Result<Vec<_>, _>>()?;
+    super::write_page(root, "delaunay.md", &page(&compared))?;
+    match compared.iter().find(|compared| !compared.same_set) {
+        Some(compared) => Err(format!("{}: the sets of tetrahedra differ", compared.input)),
+        None => Ok(()),
+    }
+}
+
+fn our_program(root: &Path) -> Result<(PathBuf, PathBuf), String> {
+    execute(
+        root,
+        &[],
+        &[
+            "cargo",
+            "build",
+            "--release",
+            "--package",
+            "pellicle-delaunay",
+            "--example",
+            "time_delaunay",
+        ],
+    )?;
+    let target = super::target_folder(root)?;
+    let scratch = target.join("bench");
+    std::fs::create_dir_all(&scratch).map_err(|error| format!("{}: {error}", scratch.display()))?;
+    Ok((target.join("release/examples/time_delaunay"), scratch))
+}
+
+fn cgal_program(root: &Path, scratch: &Path) -> Result<PathBuf, String> {
+    let program = scratch.join("cgal_delaunay");
+    let output = program.to_string_lossy().into_owned();
+    // CGAL's interval arithmetic wants -frounding-math of gcc.
+    execute(
+        root,
+        &[],
+        &[
+            "g++",
+            "-std=c++17",
+            "-O3",
+            "-DNDEBUG",
+            "-frounding-math",
+            "xtask/peers/cgal_delaunay.cpp",
+            "-o",
+            &output,
+            "-lgmp",
+            "-lmpfr",
+        ],
+    )
+    .map_err(|error| format!("{error}; is libcgal-dev installed?"))?;
+    Ok(program)
+}
+
+fn compare(ours: &Path, cgal: &Path, scratch: &Path, input: &str) -> Result<Compared, String> {
+    let (kind, count) = input
+        .split_once(':')
+        .ok_or_else(|| format!("{input}: KIND:COUNT is wanted"))?;
+    let path = |name: &str| scratch.join(name).to_string_lossy().into_owned();
+    let (points, our_set, cgal_set) = (path("points"), path("ours"), path("cgal"));
+    measured::run(
+        ours,
+        &[kind, count, "--points", &points, "--dump", &our_set],
+    )?;
+    measured::run(cgal, &[&points, &cgal_set])?;
+    let bytes = |file: &str| std::fs::read(file).map_err(|error| format!("{file}: {error}"));
+    let same_set = bytes(&our_set)? == bytes(&cgal_set)?;
+
+    let mut compared = Compared {
+        input: input.to_owned(),
+        ours: Runs::default(),
+        cgal: Runs::default(),
+        same_set,
+    };
+    for _ in 0..ROUNDS {
+        compared.ours.add(measured::run(ours, &[kind, count])?)?;
+        compared.cgal.add(measured::run(cgal, &[&points])?)?;
+    }
+    eprintln!("{input}: {:.2} times CGAL's time", compared.ratio());
+    Ok(compared)
+}
+
+impl Runs {
+    /// Takes in a run that printed seconds, points and tetrahedra.
+    fn add(&mut self, run: Measured) -> Outcome {
+        let numbers: Vec<f64> = run
+            .output
+            .split_whitespace()
+            .filter_map(|word| word.parse().ok())
+            .collect();
+        let [seconds, points, tetrahedra] = numbers[..] else {
+            return Err(format!("not three numbers: {}", run.output));
+        };
+        self.seconds.push(seconds);
+        self.points = points as u64;
+        self.tetrahedra = tetrahedra as u64;
+        self.peak_bytes = self.peak_bytes.max(run.peak_bytes.unwrap_or(0));
+        Ok(())
+    }
+
+    /// The program's whole memory at its peak, by tetrahedron.
+    fn peak_per_tetrahedron(&self) -> f64 {
+        self.peak_bytes as f64 / self.tetrahedra as f64
+    }
+}
+
+impl Compared {
+    /// Our median over CGAL's.
+    fn ratio(&self) -> f64 {
+        median(&self.ours.seconds) / median(&self.cgal.seconds)
+    }
+}
+
+fn page(compared: &[Compared]) -> String {
+    let mut text = format!(
+        "\
+# Delaunay tetrahedralisation, against CGAL
+
+Made by `cargo xtask bench --delaunay` on {}.
+Wall seconds of one thread, sorting and insertion alone; medians of {ROUNDS} runs taken in turns. Peak: the most resident
+memory of the whole program by finite tetrahedron, the points included. *Same set*: both programs return the same set of
+tetrahedra, compared vertex by vertex. CGAL is `Delaunay_triangulation_3` with its exact predicates and inexact
+constructions, from Debian's `libcgal-dev`, compiled with -O3.
+
+| input | finite tetrahedra | Pellicle s | CGAL s | ratio | Pellicle peak, bytes | CGAL peak, bytes | same set |
+|---|---:|---:|---:|---:|---:|---:|---|
+",
+        super::machine()
+    );
+    for c in compared {
+        let _ = writeln!(
+            text,
+            "| {} | {} | {:.2} | {:.2} | {:.2} | {:.0} | {:.0} | {} |",
+            c.input.replace(':', " "),
+            c.ours.tetrahedra,
+            median(&c.ours.seconds),
+            median(&c.cgal.seconds),
+            c.ratio(),
+            c.ours.peak_per_tetrahedron(),
+            c.cgal.peak_per_tetrahedron(),
+            if c.same_set { "yes" } else { "**no**" }
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn measured(output: &str) -> Measured {
+        Measured {
+            seconds: 9.0,
+            peak_bytes: Some(7000),
+            output: output.to_owned(),
+        }
+    }
+
+    #[test]
+    fn runs_are_read_from_what_programs_print() {
+        let mut runs = Runs::default();
+        runs.add(measured("0.250 100 70\n")).unwrap();
+        assert_eq!(
+            (runs.seconds[0], runs.points, runs.tetrahedra),
+            (0.25, 100, 70)
+        );
+        assert_eq!(runs.peak_per_tetrahedron(), 100.0);
+        assert!(runs.add(measured("done\n")).is_err());
+    }
+
+    #[test]
+    fn the_page_shows_the_ratio() {
+        let mut compared = Compared {
+            input: "uniform:100".into(),
+            ours: Runs::default(),
+            cgal: Runs::default(),
+            same_set: false,
+        };
+        compared.ours.add(measured("1.0 100 70")).unwrap();
+        compared.cgal.add(measured("2.0 100 70")).unwrap();
+        let page = page(&[compared]);
+        assert!(
+            page.contains("| uniform 100 | 70 | 1.00 | 2.00 | 0.50 | 100 | 100 | **no** |"),
+            "{page}"
+        );
+    }
+}

@@ -1,0 +1,72 @@
+//! Measurements, and the pages under `docs/benchmarks/` that show them.
+
+mod delaunay;
+mod fixtures;
+mod measured;
+
+use crate::{Outcome, execute};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// `--table` or `--delaunay …`.
+pub fn run(root: &Path, arguments: &[&str]) -> Outcome {
+    match arguments {
+        ["--table"] => fixtures::run(root),
+        ["--delaunay", inputs @ ..] => delaunay::run(root, inputs),
+        _ => Err("bench wants --table, or --delaunay [INPUT:COUNT …]".into()),
+    }
+}
+
+/// Where cargo puts what it builds.
+fn target_folder(root: &Path) -> Result<PathBuf, String> {
+    let metadata: Value = serde_json::from_str(&crate::cargo_metadata(root)?)
+        .map_err(|error| format!("cargo metadata: {error}"))?;
+    let folder = metadata["target_directory"]
+        .as_str()
+        .ok_or("cargo metadata: no target directory")?;
+    Ok(PathBuf::from(folder))
+}
+
+/// Builds the command line in release, and returns where it is and a folder for what it writes.
+fn command_line(root: &Path) -> Result<(PathBuf, PathBuf), String> {
+    execute(
+        root,
+        &[],
+        &["cargo", "build", "--release", "--package", "pellicle-cli"],
+    )?;
+    let target = target_folder(root)?;
+    let scratch = target.join("bench");
+    std::fs::create_dir_all(&scratch).map_err(|error| format!("{}: {error}", scratch.display()))?;
+    let name = format!("pellicle{}", std::env::consts::EXE_SUFFIX);
+    Ok((target.join("release").join(name), scratch))
+}
+
+/// The machine in a line: processor, cores, and the compiler.
+fn machine() -> String {
+    let processor = std::fs::read_to_string("/proc/cpuinfo")
+        .ok()
+        .and_then(|text| {
+            let line = text.lines().find(|line| line.starts_with("model name"))?;
+            Some(line.split_once(':')?.1.trim().to_owned())
+        })
+        .unwrap_or_else(|| std::env::consts::ARCH.to_owned());
+    let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    let compiler = Command::new("rustc")
+        .arg("--version")
+        .output()
+        .map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
+        .unwrap_or_default();
+    format!("{processor}, {cores} cores, {compiler}")
+}
+
+/// Writes a page under `docs/benchmarks/`.
+fn write_page(root: &Path, name: &str, text: &str) -> Outcome {
+    let folder = root.join("docs/benchmarks");
+    let path = folder.join(name);
+    std::fs::create_dir_all(&folder)
+        .and_then(|()| std::fs::write(&path, text))
+        .map_err(|error| format!("{}: {error}", path.display()))?;
+    eprintln!("wrote docs/benchmarks/{name}");
+    Ok(())
+}
