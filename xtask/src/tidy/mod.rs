@@ -6,6 +6,7 @@ mod files;
 pub mod fixtures;
 mod floors;
 mod lengths;
+mod links;
 mod manifests;
 mod paths;
 mod printing;
@@ -82,7 +83,11 @@ fn all_findings(root: &Path) -> Result<Vec<Finding>, String> {
             Kind::TestSource => {
                 findings.extend(citations::check_source(&file.name, &file.text, &keys));
             }
-            Kind::Prose => findings.extend(citations::check_prose(&file.name, &file.text, &keys)),
+            Kind::Prose => {
+                findings.extend(citations::check_prose(&file.name, &file.text, &keys));
+                let exists = |path: &str| root.join(path).exists();
+                findings.extend(links::check(&file.name, &file.text, exists));
+            }
             Kind::Other => {}
         }
     }
