@@ -81,10 +81,6 @@ impl<'a> Canonical<'a> {
         &self.tets
     }
 
-    pub(crate) fn tet_ids(&self) -> impl Iterator<Item = TetId> + use<> {
-        (0..self.tets.len()).map(TetId::new)
-    }
-
     #[inline]
     pub(crate) fn is_finite(&self, tet: TetId) -> bool {
         self.tetrahedralization.is_finite(tet)

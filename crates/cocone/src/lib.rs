@@ -8,6 +8,7 @@ mod facet_set;
 mod options;
 mod poles;
 mod prune;
+mod radial;
 mod report;
 mod sheet;
 mod solid;
@@ -21,11 +22,14 @@ pub use report::Report;
 
 use candidates::Wishes;
 use canonical::Canonical;
+use facet_set::FacetSet;
 use pellicle_delaunay::Tetrahedralization;
 use pellicle_geometry::{Cancelled, Progress, VertexId};
 use pellicle_mesh::{OrientationPolicy, SplitOptions, TriMesh, TriangleSoup};
 use poles::Poles;
+use radial::Radial;
 use sheet::Triangles;
+use walk::Walked;
 
 /// A surface through points, and how it came about.
 #[derive(Clone, Debug)]
@@ -53,7 +57,7 @@ pub fn reconstruct_with(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Reconstruction, Error> {
-    let step = |done| Cancelled::check(progress.step("reconstruct", done, 5));
+    let step = |done| Cancelled::check(progress.step("reconstruct", done, 7));
     step(0)?;
     let canonical = Canonical::of(tetrahedralization);
     let poles = Poles::of(&canonical);
@@ -65,15 +69,25 @@ pub fn reconstruct_with(
     drop((wishes, poles));
     let candidate_triangles = candidates.len();
     step(3)?;
-    prune::prune(&canonical, &flat, &mut candidates);
+    let mut radial = Radial::of(&canonical, &candidates);
+    let mut walked = walk::extract(&canonical, &candidates, &radial);
     step(4)?;
-    let surface = walk::extract(&canonical, &candidates);
-    let (surface, moved_tetrahedra) = match options.method {
-        Method::Cocone => (surface, 0),
-        Method::TightCocone => tight::close(&canonical, surface.facets()),
-    };
-    let mut reconstruction = mesh(&canonical, surface.triangles(&canonical))?;
+    prune::prune(&canonical, &flat, &walked, &mut candidates, &mut radial);
+    if candidates.len() < candidate_triangles {
+        walked = walk::extract(&canonical, &candidates, &radial);
+    }
     step(5)?;
+    let (triangles, moved_tetrahedra) = match options.method {
+        Method::Cocone => (Triangles::of(&radial, &walked), 0),
+        Method::TightCocone => {
+            let surface = walked_facets(&canonical, &radial, &walked);
+            let (sheet, moved) = tight::close(&canonical, &surface);
+            (sheet.triangles(&canonical), moved)
+        }
+    };
+    step(6)?;
+    let mut reconstruction = mesh(&canonical, triangles)?;
+    step(7)?;
     let report = &mut reconstruction.report;
     report.candidate_triangles = candidate_triangles;
     report.pruned_triangles = candidate_triangles - candidates.len();
@@ -85,6 +99,15 @@ pub fn reconstruct_with(
         .collect();
     report.undersampled.sort_unstable();
     Ok(reconstruction)
+}
+
+/// The facets of which the walk passed a side.
+fn walked_facets(canonical: &Canonical, radial: &Radial, walked: &Walked) -> FacetSet {
+    let mut facets = FacetSet::empty(canonical);
+    for side in walked.iter().flatten() {
+        facets.insert(canonical, radial.facet(side.facet()));
+    }
+    facets
 }
 
 /// The mesh of the triangles, with a report of the points in it.

@@ -2,11 +2,10 @@
 
 use crate::canonical::Canonical;
 use crate::facet_set::FacetSet;
+use crate::radial::{Radial, SideEdge, SideId};
 use crate::umbrella::Links;
-use crate::walk;
+use crate::walk::Walked;
 use glam::DVec3;
-use pellicle_delaunay::FacetId;
-use pellicle_geometry::VertexId;
 use pellicle_predicates::{Sign, orient3d};
 
 /// Removes candidates at sharp edges, in cascade.
@@ -15,73 +14,78 @@ use pellicle_predicates::{Sign, orient3d};
 /// from its border inwards. Two things stop it here. An edge whose ends both lack a flat cell may be a
 /// border, and is left alone. And what a first walk finds to close around a flat vertex is what the walk
 /// is after: it is never removed.
-pub(crate) fn prune(canonical: &Canonical, flat: &[bool], candidates: &mut FacetSet) {
-    let protected = closed_around_vertices(canonical, flat, candidates);
-    let mut pending: Vec<FacetId> = candidates.iter(canonical).collect();
-    let mut around = Vec::new();
-    while let Some(facet) = pending.pop() {
-        if !candidates.contains(facet) || protected.contains(facet) {
+pub(crate) fn prune(
+    canonical: &Canonical,
+    flat: &[bool],
+    first_walk: &Walked,
+    candidates: &mut FacetSet,
+    radial: &mut Radial,
+) {
+    let protected = closed_around_vertices(canonical, flat, first_walk, radial);
+    let mut pending: Vec<usize> = radial.left().collect();
+    while let Some(place) = pending.pop() {
+        if radial.is_removed(place) || protected[place] {
             continue;
         }
-        for opposite in canonical.facet(facet) {
-            let edge = edge_opposite(canonical.facet(facet), opposite);
-            if !edge.iter().any(|v| flat[v.index()]) {
-                continue;
-            }
-            around.clear();
-            let turn = canonical.around_edge(facet, opposite);
-            around.extend(turn.filter(|&side| candidates.contains(side)));
-            if !is_sharp(canonical, edge, &around) {
-                continue;
-            }
-            for &side in around.iter().filter(|&&side| !protected.contains(side)) {
-                candidates.remove(canonical, side);
-                for opposite in canonical.facet(side) {
-                    let turn = canonical.around_edge(side, opposite);
-                    pending.extend(turn.filter(|&side| candidates.contains(side)));
+        let is_sharp = |edge: &SideEdge| {
+            let ends_are_flat = radial.edge(*edge).map(|v| flat[v.index()]);
+            ends_are_flat.contains(&true) && is_sharp(canonical, radial, *edge)
+        };
+        let Some(edge) = SideId((2 * place) as u32)
+            .edges()
+            .into_iter()
+            .find(is_sharp)
+        else {
+            continue;
+        };
+        let around: Vec<SideEdge> = radial.around(edge).collect();
+        for place in around.iter().map(|edge| edge.side().facet()) {
+            if !protected[place] {
+                // Its other edges may become sharp.
+                for edge in SideId((2 * place) as u32).edges() {
+                    pending.extend(radial.around(edge).map(|edge| edge.side().facet()));
                 }
+                candidates.remove(canonical, radial.facet(place));
+                radial.remove(place);
             }
-            break;
         }
     }
 }
 
-/// The triangles of a first walk that form a closed fan around a flat vertex, dead ends cut back.
-fn closed_around_vertices(canonical: &Canonical, flat: &[bool], candidates: &FacetSet) -> FacetSet {
-    let walked = walk::extract(canonical, candidates);
-    let facets: Vec<FacetId> = walked.facets().iter(canonical).collect();
-    let links = Links::of(canonical, &facets);
-    let mut closed = FacetSet::empty(canonical);
+/// By place: whether the triangle is part of a fan that the walk found to close around a flat vertex, dead
+/// ends cut back.
+fn closed_around_vertices(
+    canonical: &Canonical,
+    flat: &[bool],
+    walked: &Walked,
+    radial: &Radial,
+) -> Vec<bool> {
+    let places: Vec<usize> = (0..radial.len()).filter(|&k| walked[k].is_some()).collect();
+    let triangles: Vec<_> = places.iter().map(|&k| radial.vertices(k)).collect();
+    let links = Links::of(canonical.vertex_count(), &triangles);
+    let mut closed = vec![false; radial.len()];
     for vertex in canonical.vertex_ids().filter(|v| flat[v.index()]) {
         for triangle in links.umbrella_without_dead_ends(vertex) {
-            closed.insert(canonical, facets[triangle as usize]);
+            closed[places[triangle as usize]] = true;
         }
     }
     closed
 }
 
-/// The edge from u to v of a triangle (u, v, `opposite`).
-pub(crate) fn edge_opposite(facet: [VertexId; 3], opposite: VertexId) -> [VertexId; 2] {
-    let place = facet.iter().position(|&v| v == opposite).unwrap_or(0);
-    [facet[(place + 1) % 3], facet[(place + 2) % 3]]
-}
-
 /// Whether two consecutive triangles around the edge enclose an angle of more than 3π/2, as a single
 /// triangle does with itself.
-fn is_sharp(canonical: &Canonical, edge: [VertexId; 2], around: &[FacetId]) -> bool {
-    let apex = |side: &FacetId| {
-        let facet = canonical.facet(*side);
-        let apex = facet.iter().find(|v| !edge.contains(v));
-        apex.map_or(canonical.point(edge[0]), |&v| canonical.point(v))
-    };
-    let [u, v] = edge.map(|vertex| canonical.point(vertex));
+fn is_sharp(canonical: &Canonical, radial: &Radial, edge: SideEdge) -> bool {
+    let [u, v] = radial.edge(edge).map(|vertex| canonical.point(vertex));
     let axis = v - u;
-    around.len() == 1
-        || around.iter().enumerate().any(|(k, side)| {
-            // The turn goes counter-clockwise seen from v, from apex x to apex y. Beyond 3π/2 its cosine is
-            // positive and its sine negative.
-            let (x, y) = (apex(side), apex(&around[(k + 1) % around.len()]));
-            let across = |p: DVec3| (p - u).cross(axis);
-            across(x).dot(across(y)) > 0.0 && orient3d(u, v, x, y) == Sign::Negative
-        })
+    let apex = |edge: SideEdge| canonical.point(radial.side_vertices(edge.side())[edge.place()]);
+    let mut before = apex(edge);
+    radial.around(edge).any(|met| {
+        // The turn goes counter-clockwise seen from v, from apex x to apex y. Beyond 3π/2 its cosine is
+        // positive and its sine negative, and a full turn leads back to the same triangle.
+        let (x, y) = (before, apex(met));
+        before = y;
+        let across = |p: DVec3| (p - u).cross(axis);
+        let is_single = radial.across(edge) == edge.behind();
+        is_single || across(x).dot(across(y)) > 0.0 && orient3d(u, v, x, y) == Sign::Negative
+    })
 }

@@ -2,6 +2,8 @@
 
 use crate::canonical::Canonical;
 use crate::facet_set::FacetSet;
+use crate::radial::{Radial, SideEdge, SideId};
+use crate::walk::Walked;
 use pellicle_delaunay::FacetId;
 use pellicle_geometry::VertexId;
 
@@ -10,14 +12,6 @@ pub(crate) struct Sheet {
     facets: FacetSet,
     /// By tetrahedron: bit i for the facet opposite corner i, seen from this tetrahedron.
     sides: Vec<u8>,
-}
-
-/// Triangles over copies of vertices.
-pub(crate) struct Triangles {
-    /// Counter-clockwise seen from outside.
-    pub(crate) triangles: Vec<[VertexId; 3]>,
-    /// By vertex of the triangles, the canonical vertex.
-    pub(crate) vertices: Vec<VertexId>,
 }
 
 impl Sheet {
@@ -37,36 +31,43 @@ impl Sheet {
         is_new
     }
 
-    /// The facets, whichever side they are seen from.
-    pub(crate) fn facets(&self) -> &FacetSet {
-        &self.facets
-    }
-
-    fn contains(&self, side: FacetId) -> bool {
-        self.sides[side.tet().index()] >> side.corner() & 1 != 0
-    }
-
-    /// The triangles, with a vertex for each fan of triangles around a point: where two sheets touch, each
-    /// has vertices of its own. Vertices and triangles are in canonical order.
+    /// The triangles of the sheet.
     pub(crate) fn triangles(&self, canonical: &Canonical) -> Triangles {
-        let sides: Vec<FacetId> = canonical
-            .tet_ids()
-            .flat_map(|tet| (0..4).map(move |corner| FacetId::of(tet, corner)))
-            .filter(|&side| self.contains(side))
+        let radial = Radial::of(canonical, &self.facets);
+        let sides = (0..radial.len())
+            .map(|place| {
+                let facet = radial.facet(place);
+                let first = SideId((2 * place) as u32);
+                let is_first = self.sides[facet.tet().index()] >> facet.corner() & 1 != 0;
+                Some(if is_first { first } else { first.other() })
+            })
             .collect();
-        let rank = Rank::of(canonical, &sides);
+        Triangles::of(&radial, &sides)
+    }
+}
 
-        // By side and corner of its facet, the vertex of the fan; fans are numbered in order of discovery.
-        let mut fans = vec![[VertexId::NONE; 3]; sides.len()];
+/// Triangles over copies of vertices.
+pub(crate) struct Triangles {
+    /// Counter-clockwise seen from outside.
+    pub(crate) triangles: Vec<[VertexId; 3]>,
+    /// By vertex of the triangles, the canonical vertex.
+    pub(crate) vertices: Vec<VertexId>,
+}
+
+impl Triangles {
+    /// The triangles of the sides that were walked, with a vertex for each fan of triangles around a point:
+    /// where two sheets touch, each has vertices of its own. Vertices and triangles are in canonical order.
+    pub(crate) fn of(radial: &Radial, walked: &Walked) -> Self {
+        // By place and corner, the vertex of the fan; fans are numbered in order of discovery.
+        let mut fans = vec![[VertexId::NONE; 3]; radial.len()];
         let mut vertices = Vec::new();
-        for (k, &side) in sides.iter().enumerate() {
-            for place in 0..3 {
-                if fans[k][place] == VertexId::NONE {
+        for side in walked.iter().flatten() {
+            for corner in 0..3 {
+                if fans[side.facet()][corner] == VertexId::NONE {
                     let fan = VertexId::new(vertices.len());
-                    let vertex = canonical.facet(side)[place];
-                    vertices.push(vertex);
-                    self.mark_fan(canonical, side, vertex, |side, place| {
-                        let mark = &mut fans[rank.of_side(side)][place];
+                    vertices.push(radial.side_vertices(*side)[corner]);
+                    mark_fan(radial, walked, *side, corner, |side, corner| {
+                        let mark = &mut fans[side.facet()][corner];
                         let is_new = *mark == VertexId::NONE;
                         *mark = fan;
                         is_new
@@ -74,52 +75,47 @@ impl Sheet {
                 }
             }
         }
+        let fans = walked
+            .iter()
+            .flatten()
+            .map(|side| fans[side.facet()])
+            .collect();
         in_canonical_order(fans, vertices)
-    }
-
-    /// Calls `mark` for each side of the fan around `vertex` that holds `side`, in both directions, until
-    /// it returns false.
-    fn mark_fan(
-        &self,
-        canonical: &Canonical,
-        side: FacetId,
-        vertex: VertexId,
-        mut mark: impl FnMut(FacetId, usize) -> bool,
-    ) {
-        let place_in = |side: FacetId| {
-            let facet = canonical.facet(side);
-            facet.iter().position(|&v| v == vertex).unwrap_or(0)
-        };
-        mark(side, place_in(side));
-        for step in [1, 2] {
-            let mut side = side;
-            loop {
-                // Counter-clockwise the next edge is opposite the next vertex; clockwise, the last.
-                let opposite = canonical.facet(side)[(place_in(side) + step) % 3];
-                match self.neighbor(canonical, side, opposite) {
-                    Some(next) if mark(next, place_in(next)) => side = next,
-                    _ => break,
-                }
-            }
-        }
-    }
-
-    /// SURFACENEIGHBOR: the next side across the edge opposite a vertex, through the outside.
-    fn neighbor(
-        &self,
-        canonical: &Canonical,
-        side: FacetId,
-        opposite: VertexId,
-    ) -> Option<FacetId> {
-        let next = canonical
-            .around_edge(side, opposite)
-            .find(|&next| self.facets.contains(next))?;
-        // Seen from behind, it is a sheet that faces the other way, or the same triangle at a border.
-        self.contains(next).then_some(next)
     }
 }
 
-/// Numbers vertices by canonical vertex, then fan, and sorts nothing else: the sides are in order already.
+/// Calls `mark` for each side, with the corner there, of the fan around a corner of `side`, in both
+/// directions, until it returns false.
+fn mark_fan(
+    radial: &Radial,
+    walked: &Walked,
+    side: SideId,
+    corner: usize,
+    mut mark: impl FnMut(SideId, usize) -> bool,
+) {
+    mark(side, corner);
+    let vertex = radial.side_vertices(side)[corner];
+    for step in [1, 2] {
+        let (mut side, mut corner) = (side, corner);
+        loop {
+            // Counter-clockwise the next edge is opposite the next vertex; clockwise, the last.
+            let edge: SideEdge = side.edges()[(corner + step) % 3];
+            let next = radial.across(edge).side();
+            // Seen from behind, it is a sheet that faces the other way, or this one at its border.
+            if walked[next.facet()] != Some(next) {
+                break;
+            }
+            let place = radial.side_vertices(next).iter().position(|&v| v == vertex);
+            corner = place.unwrap_or(0);
+            side = next;
+            if !mark(side, corner) {
+                break;
+            }
+        }
+    }
+}
+
+/// Numbers vertices by canonical vertex, then fan; the triangles are in order already.
 fn in_canonical_order(fans: Vec<[VertexId; 3]>, vertices: Vec<VertexId>) -> Triangles {
     let mut order: Vec<VertexId> = (0..vertices.len()).map(VertexId::new).collect();
     order.sort_by_key(|fan| vertices[fan.index()]);
@@ -133,38 +129,5 @@ fn in_canonical_order(fans: Vec<[VertexId; 3]>, vertices: Vec<VertexId>) -> Tria
             .map(|triangle| triangle.map(|fan| number[fan.index()]))
             .collect(),
         vertices: order.iter().map(|fan| vertices[fan.index()]).collect(),
-    }
-}
-
-/// Where a side stands in a sorted list.
-struct Rank {
-    /// By tetrahedron: how many sides of the list come before those of it.
-    before: Vec<u32>,
-    sides: Vec<u8>,
-}
-
-impl Rank {
-    fn of(canonical: &Canonical, sides: &[FacetId]) -> Self {
-        let mut bits = vec![0_u8; canonical.tets().len()];
-        for side in sides {
-            bits[side.tet().index()] |= 1 << side.corner();
-        }
-        let mut count = 0;
-        let before = bits
-            .iter()
-            .map(|bits| {
-                count += bits.count_ones();
-                count - bits.count_ones()
-            })
-            .collect();
-        Self {
-            before,
-            sides: bits,
-        }
-    }
-
-    fn of_side(&self, side: FacetId) -> usize {
-        let below = self.sides[side.tet().index()] & ((1 << side.corner()) - 1);
-        (self.before[side.tet().index()] + below.count_ones()) as usize
     }
 }

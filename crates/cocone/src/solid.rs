@@ -127,8 +127,11 @@ impl<'s> Solid<'s> {
 
     /// The vertices on the boundary whose facets there form no umbrella.
     fn suspects(&self) -> BTreeSet<VertexId> {
-        let facets: Vec<FacetId> = self.boundary_sides().collect();
-        let links = Links::of(self.canonical, &facets);
+        let triangles: Vec<_> = self
+            .boundary_sides()
+            .map(|side| self.canonical.facet(side))
+            .collect();
+        let links = Links::of(self.canonical.vertex_count(), &triangles);
         let is_suspect = |v: &VertexId| links.degree(*v) > 0 && !links.is_umbrella(*v);
         self.canonical.vertex_ids().filter(is_suspect).collect()
     }

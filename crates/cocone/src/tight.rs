@@ -21,8 +21,11 @@ use std::collections::{BinaryHeap, VecDeque};
 /// The boundary of the tetrahedra inside, seen from outside, and how many of them were moved to make it a
 /// manifold. `surface` is what Cocone found.
 pub(crate) fn close(canonical: &Canonical, surface: &FacetSet) -> (Sheet, usize) {
-    let facets: Vec<FacetId> = surface.iter(canonical).collect();
-    let links = Links::of(canonical, &facets);
+    let facets: Vec<_> = surface
+        .iter(canonical)
+        .map(|facet| canonical.facet(facet))
+        .collect();
+    let links = Links::of(canonical.vertex_count(), &facets);
     let good: Vec<bool> = canonical
         .vertex_ids()
         .map(|v| links.is_umbrella(v))

@@ -1,7 +1,5 @@
 //! Umbrellas: whether the triangles at a vertex form a disk around it.
 
-use crate::canonical::Canonical;
-use pellicle_delaunay::FacetId;
 use pellicle_geometry::VertexId;
 
 /// By vertex, the edges opposite it in the triangles it has: the vertex's link.
@@ -9,37 +7,34 @@ pub(crate) struct Links {
     /// By vertex, where its edges start in `edges`; one more at the end.
     starts: Vec<u32>,
     edges: Vec<[VertexId; 2]>,
-    /// By edge, the place of its triangle in the list of facets.
+    /// By edge, the place of its triangle in the list of triangles.
     triangles: Vec<u32>,
 }
 
 impl Links {
-    pub(crate) fn of(canonical: &Canonical, facets: &[FacetId]) -> Self {
-        let mut starts = vec![0_u32; canonical.vertex_count() + 1];
-        for &facet in facets {
-            for vertex in canonical.facet(facet) {
-                starts[vertex.index() + 1] += 1;
-            }
+    pub(crate) fn of(vertex_count: usize, triangles: &[[VertexId; 3]]) -> Self {
+        let mut starts = vec![0_u32; vertex_count + 1];
+        for vertex in triangles.iter().flatten() {
+            starts[vertex.index() + 1] += 1;
         }
-        for vertex in 0..canonical.vertex_count() {
+        for vertex in 0..vertex_count {
             starts[vertex + 1] += starts[vertex];
         }
         let mut next = starts.clone();
-        let mut edges = vec![[VertexId::NONE; 2]; 3 * facets.len()];
-        let mut triangles = vec![0; 3 * facets.len()];
-        for (k, &facet) in facets.iter().enumerate() {
-            let [a, b, c] = canonical.facet(facet);
+        let mut edges = vec![[VertexId::NONE; 2]; 3 * triangles.len()];
+        let mut places = vec![0; 3 * triangles.len()];
+        for (k, &[a, b, c]) in triangles.iter().enumerate() {
             for (vertex, edge) in [(a, [b, c]), (b, [c, a]), (c, [a, b])] {
                 let place = &mut next[vertex.index()];
                 edges[*place as usize] = edge;
-                triangles[*place as usize] = k as u32;
+                places[*place as usize] = k as u32;
                 *place += 1;
             }
         }
         Self {
             starts,
             edges,
-            triangles,
+            triangles: places,
         }
     }
 
@@ -53,7 +48,7 @@ impl Links {
         is_simple_cycle(&self.edges[self.range(vertex)])
     }
 
-    /// The triangles of the vertex, as places in the list of facets, that form an umbrella once dead ends
+    /// The triangles of the vertex, as places in the list of triangles, that form an umbrella once dead ends
     /// of its link are cut back, again and again; none where they do not.
     pub(crate) fn umbrella_without_dead_ends(
         &self,

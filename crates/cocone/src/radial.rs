@@ -1,0 +1,276 @@
+//! A set of facets, and how they follow each other around their edges.
+//!
+//! ```text
+//!        f           facets f, g, h at an edge, seen from its end. Each facet has two sides, and each side
+//!       1|2          sees one of the wedges between the facets: side 2 of f and side 3 of g see the same
+//!        o---3 g     wedge, so turning from either through the space it sees first meets the other.
+//!       /  4
+//!      h
+//! ```
+//!
+//! Everything combinatorial that happens on candidates (components, pruning, the manifold walk) needs only
+//! these meetings; the tetrahedra between are turned through once.
+
+use crate::canonical::Canonical;
+use crate::facet_set::FacetSet;
+use pellicle_delaunay::FacetId;
+use pellicle_geometry::{VertexId, define_id};
+
+define_id! {
+    /// A side of a facet of a [`Radial`] set: `2 k` for the k-th facet as seen from its tetrahedron of
+    /// lower id, `2 k + 1` from the other.
+    pub(crate) struct SideId;
+}
+
+define_id! {
+    /// An edge of a side: `3 s + i` for the edge of side `s` opposite the i-th of its vertices.
+    pub(crate) struct SideEdge;
+}
+
+impl SideId {
+    /// The place of the facet in the list.
+    #[inline]
+    pub(crate) fn facet(self) -> usize {
+        self.index() / 2
+    }
+
+    #[inline]
+    pub(crate) fn other(self) -> Self {
+        Self(self.0 ^ 1)
+    }
+
+    /// The edges opposite its three vertices.
+    #[inline]
+    pub(crate) fn edges(self) -> [SideEdge; 3] {
+        [0, 1, 2].map(|place| SideEdge(3 * self.0 + place))
+    }
+}
+
+impl SideEdge {
+    #[inline]
+    pub(crate) fn side(self) -> SideId {
+        SideId(self.0 / 3)
+    }
+
+    /// Which of the side's vertices is opposite.
+    #[inline]
+    pub(crate) fn place(self) -> usize {
+        (self.0 % 3) as usize
+    }
+
+    /// The same edge of the same facet seen from the other side, whose vertices are listed as (a, c, b)
+    /// where this side has (a, b, c).
+    #[inline]
+    pub(crate) fn behind(self) -> Self {
+        let place = (3 - self.0 % 3) % 3;
+        Self(3 * self.side().other().0 + place)
+    }
+}
+
+/// See the module.
+pub(crate) struct Radial {
+    facets: Vec<FacetId>,
+    /// By facet: counter-clockwise seen from its side `2 k`.
+    vertices: Vec<[VertexId; 3]>,
+    /// By edge of a side: the edge of the side that sees the same wedge.
+    across: Vec<SideEdge>,
+    /// By facet: whether it was removed.
+    removed: Vec<bool>,
+}
+
+impl Radial {
+    pub(crate) fn of(canonical: &Canonical, set: &FacetSet) -> Self {
+        let facets: Vec<FacetId> = set.iter(canonical).collect();
+        let places = Places::of(canonical, &facets);
+        let mut radial = Self {
+            vertices: facets.iter().map(|&f| canonical.facet(f)).collect(),
+            across: vec![SideEdge::NONE; 6 * facets.len()],
+            removed: vec![false; facets.len()],
+            facets,
+        };
+        for start in (0..radial.across.len()).map(SideEdge::new) {
+            if radial.across(start) != SideEdge::NONE {
+                continue;
+            }
+            let opposite = radial.side_vertices(start.side())[start.place()];
+            let edge = radial.edge(start);
+            let met = canonical
+                .around_edge(radial.facet_of(canonical, start.side()), opposite)
+                .find(|&facet| set.contains(facet));
+            // The facet itself is met at last, from behind.
+            let Some(met) = met else { continue };
+            let side = places.side(canonical, met);
+            let place = radial
+                .side_vertices(side)
+                .iter()
+                .position(|v| !edge.contains(v));
+            let end = side.edges()[place.unwrap_or(0)];
+            radial.across[start.index()] = end;
+            radial.across[end.index()] = start;
+        }
+        radial
+    }
+
+    /// How many facets there were at first; the places of sides refer to them.
+    pub(crate) fn len(&self) -> usize {
+        self.facets.len()
+    }
+
+    /// The places of the facets that are left.
+    pub(crate) fn left(&self) -> impl Iterator<Item = usize> + '_ {
+        (0..self.facets.len()).filter(|&place| !self.removed[place])
+    }
+
+    #[inline]
+    pub(crate) fn is_removed(&self, place: usize) -> bool {
+        self.removed[place]
+    }
+
+    /// The facet at a place, seen from its side `2 k`.
+    pub(crate) fn facet(&self, place: usize) -> FacetId {
+        self.facets[place]
+    }
+
+    /// The vertices of the facet at a place, counter-clockwise seen from its side `2 k`.
+    #[inline]
+    pub(crate) fn vertices(&self, place: usize) -> [VertexId; 3] {
+        self.vertices[place]
+    }
+
+    /// The vertices of a side, counter-clockwise seen from there.
+    #[inline]
+    pub(crate) fn side_vertices(&self, side: SideId) -> [VertexId; 3] {
+        let [a, b, c] = self.vertices[side.facet()];
+        if side.0 & 1 == 0 {
+            [a, b, c]
+        } else {
+            [a, c, b]
+        }
+    }
+
+    /// The side as a facet seen from a tetrahedron.
+    pub(crate) fn facet_of(&self, canonical: &Canonical, side: SideId) -> FacetId {
+        let facet = self.facets[side.facet()];
+        if side.0 & 1 == 0 {
+            facet
+        } else {
+            canonical.twin(facet)
+        }
+    }
+
+    /// The side of a facet seen from a tetrahedron.
+    pub(crate) fn side_of(&self, canonical: &Canonical, facet: FacetId) -> Option<SideId> {
+        let twin = canonical.twin(facet);
+        let stored = if facet.tet() < twin.tet() {
+            facet
+        } else {
+            twin
+        };
+        let place = self.facets.binary_search(&stored).ok()?;
+        Some(SideId((2 * place + usize::from(stored != facet)) as u32))
+    }
+
+    /// The first edge of a side met when turning around the edge through the space it is seen from: at last
+    /// its own, from behind.
+    #[inline]
+    pub(crate) fn across(&self, edge: SideEdge) -> SideEdge {
+        self.across[edge.index()]
+    }
+
+    /// The edge from u to v, where the side is (u, v, w).
+    #[inline]
+    pub(crate) fn edge(&self, edge: SideEdge) -> [VertexId; 2] {
+        let vertices = self.side_vertices(edge.side());
+        [
+            vertices[(edge.place() + 1) % 3],
+            vertices[(edge.place() + 2) % 3],
+        ]
+    }
+
+    /// The edges of sides met when turning once around, the last of them the edge itself from behind.
+    pub(crate) fn around(&self, edge: SideEdge) -> impl Iterator<Item = SideEdge> + '_ {
+        let last = edge.behind();
+        let mut next = Some(self.across(edge));
+        std::iter::from_fn(move || {
+            let met = next?;
+            next = (met != last).then(|| self.across(met.behind()));
+            Some(met)
+        })
+    }
+
+    /// Removes a facet: the wedges on its two sides become one.
+    pub(crate) fn remove(&mut self, place: usize) {
+        self.removed[place] = true;
+        for edge in SideId((2 * place) as u32).edges() {
+            let (before, after) = (self.across(edge), self.across(edge.behind()));
+            self.across[before.index()] = after;
+            self.across[after.index()] = before;
+        }
+    }
+
+    /// The components along edges: by place of a facet, the number of its component, and how many there
+    /// are.
+    pub(crate) fn components(&self) -> (Vec<u32>, usize) {
+        let mut component = vec![u32::MAX; self.facets.len()];
+        let mut count = 0;
+        let mut pending = Vec::new();
+        for seed in self.left() {
+            if component[seed] != u32::MAX {
+                continue;
+            }
+            component[seed] = count;
+            pending.push(seed);
+            while let Some(place) = pending.pop() {
+                let side = SideId((2 * place) as u32);
+                for edge in side.edges().into_iter().chain(side.other().edges()) {
+                    let neighbor = self.across(edge).side().facet();
+                    if component[neighbor] == u32::MAX {
+                        component[neighbor] = count;
+                        pending.push(neighbor);
+                    }
+                }
+            }
+            count += 1;
+        }
+        (component, count as usize)
+    }
+}
+
+/// Where facets stand in a sorted list.
+struct Places {
+    /// By tetrahedron: how many facets of the list come before those of it.
+    before: Vec<u32>,
+    /// By tetrahedron: bit i for the facet opposite corner i.
+    facets: Vec<u8>,
+}
+
+impl Places {
+    fn of(canonical: &Canonical, facets: &[FacetId]) -> Self {
+        let mut bits = vec![0_u8; canonical.tets().len()];
+        for facet in facets {
+            bits[facet.tet().index()] |= 1 << facet.corner();
+        }
+        let mut count = 0;
+        let before = bits
+            .iter()
+            .map(|bits| {
+                count += bits.count_ones();
+                count - bits.count_ones()
+            })
+            .collect();
+        Self {
+            before,
+            facets: bits,
+        }
+    }
+
+    fn side(&self, canonical: &Canonical, facet: FacetId) -> SideId {
+        let twin = canonical.twin(facet);
+        let (stored, is_other) = match facet.tet() < twin.tet() {
+            true => (facet, 0),
+            false => (twin, 1),
+        };
+        let below = self.facets[stored.tet().index()] & ((1 << stored.corner()) - 1);
+        SideId(2 * (self.before[stored.tet().index()] + below.count_ones()) + is_other)
+    }
+}
