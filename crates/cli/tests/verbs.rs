@@ -184,6 +184,22 @@ fn convert_keeps_every_bit_where_the_format_can() {
 }
 
 #[test]
+fn what_a_reader_changes_is_said() {
+    let folder = tempdir().unwrap();
+    let square = "OFF\n4 1 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n";
+    std::fs::write(folder.path().join("square.off"), square).unwrap();
+    let assert = pellicle(folder.path())
+        .args(["info", "square.off"])
+        .assert()
+        .success();
+    assert!(
+        stderr(&assert).contains("1 polygons cut"),
+        "{}",
+        stderr(&assert)
+    );
+}
+
+#[test]
 fn convert_to_single_precision_says_so() {
     let folder = tempdir().unwrap();
     let assert = pellicle(folder.path())

@@ -78,6 +78,18 @@ mod tests {
     }
 
     #[test]
+    fn a_box_wider_than_the_largest_number_fits() {
+        let points = [DVec3::splat(-1.7e308), DVec3::splat(1.7e308), DVec3::ZERO];
+        let frame = Frame::of(points.iter().copied());
+        let [least, greatest, middle] = points.map(|p| frame.place(p));
+        assert!(
+            (least.length() - 1.0).abs() < 1e-12 && least.x < 0.0,
+            "{least}"
+        );
+        assert_eq!((greatest, middle), (-least, DVec3::ZERO));
+    }
+
+    #[test]
     fn one_point_and_none() {
         let point = DVec3::splat(1e300);
         assert_eq!(Frame::of([point].into_iter()).place(point), DVec3::ZERO);
