@@ -4,8 +4,9 @@ use crate::canonical::Canonical;
 use crate::facet_set::FacetSet;
 use crate::options::Acceptance;
 use crate::poles::Poles;
-use pellicle_delaunay::FacetId;
+use pellicle_delaunay::{FacetId, TetId};
 use pellicle_geometry::VertexId;
+use rayon::prelude::*;
 
 /// A facet that some vertex wishes for.
 struct Wish {
@@ -22,6 +23,9 @@ pub(crate) struct Wishes(Vec<Wish>);
 /// (Dey and Giesen 2001, ratio condition).
 const RATIO: f64 = 1.2;
 
+/// Tetrahedra whose facets are looked at by one thread at a time.
+const TETS_A_PART: usize = 1 << 16;
+
 /// Pole vectors of neighbours must agree within π/3 (normal condition).
 const NEIGHBOR_COSINE: f64 = 0.5;
 
@@ -35,7 +39,22 @@ impl Wishes {
                 by,
             })
         };
-        Self(canonical.facets().filter_map(wish).collect())
+        let finite = canonical.finite_count();
+        let parts: Vec<Vec<Wish>> = (0..finite.div_ceil(TETS_A_PART))
+            .into_par_iter()
+            .map(|part| {
+                let mut wishes = Vec::new();
+                for t in part * TETS_A_PART..finite.min((part + 1) * TETS_A_PART) {
+                    canonical.for_facets_of(TetId::new(t), |facet| wishes.extend(wish(facet)));
+                }
+                wishes
+            })
+            .collect();
+        let mut all = Vec::with_capacity(parts.iter().map(Vec::len).sum());
+        for part in parts {
+            all.extend(part);
+        }
+        Self(all)
     }
 
     /// Which vertices have flat, well-shaped cells whose neighbours agree on the normal; the others are

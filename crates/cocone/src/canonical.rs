@@ -120,6 +120,17 @@ impl<'a> Canonical<'a> {
         self.tetrahedralization.facets()
     }
 
+    /// Those of [`Canonical::facets`] that are seen from a finite tetrahedron.
+    #[inline]
+    pub(crate) fn for_facets_of(&self, tet: TetId, mut see: impl FnMut(FacetId)) {
+        let twins = self.twins(tet);
+        for (corner, twin) in twins.iter().enumerate() {
+            if tet < twin.tet() {
+                see(FacetId::of(tet, corner));
+            }
+        }
+    }
+
     /// A finite tetrahedron at the vertex.
     pub(crate) fn incident(&self, vertex: VertexId) -> Option<TetId> {
         self.tetrahedralization.incident(self.original(vertex))

@@ -1,7 +1,7 @@
 //! Sets of facets, one bit a facet side.
 
 use crate::canonical::Canonical;
-use pellicle_delaunay::FacetId;
+use pellicle_delaunay::{FacetId, TetId};
 
 /// A set of facets; both sides of a facet are in it or neither is.
 #[derive(Clone)]
@@ -53,11 +53,20 @@ impl FacetSet {
         self.count
     }
 
-    /// Each facet once, seen from the tetrahedron with the lower id.
+    /// Each facet once, seen from the tetrahedron with the lower id, in order.
     pub(crate) fn iter<'s>(
         &'s self,
         canonical: &'s Canonical,
     ) -> impl Iterator<Item = FacetId> + 's {
-        canonical.facets().filter(|&facet| self.contains(facet))
+        let tets = self
+            .sides
+            .iter()
+            .enumerate()
+            .filter(|(_, sides)| **sides != 0);
+        tets.flat_map(|(t, sides)| {
+            let in_set = (0..4).filter(move |corner| sides >> corner & 1 != 0);
+            in_set.map(move |corner| FacetId::of(TetId::new(t), corner))
+        })
+        .filter(|&facet| facet.tet() < canonical.twin(facet).tet())
     }
 }

@@ -25,7 +25,7 @@ use canonical::Canonical;
 use facet_set::FacetSet;
 use pellicle_delaunay::Tetrahedralization;
 use pellicle_geometry::{Cancelled, Progress, VertexId};
-use pellicle_mesh::{OrientationPolicy, SplitOptions, TriMesh, TriangleSoup};
+use pellicle_mesh::{MeshError, OrientationPolicy, SplitOptions, TriMesh, TriangleSoup};
 use poles::Poles;
 use radial::Radial;
 use sheet::Triangles;
@@ -122,15 +122,23 @@ fn mesh(canonical: &Canonical, triangles: Triangles) -> Result<Reconstruction, E
             .collect(),
         triangles: triangles.triangles,
     };
-    let options = SplitOptions {
-        orientation: OrientationPolicy::Keep,
+    let (mesh, vertices) = match TriMesh::try_from(soup) {
+        Ok(mesh) => (mesh, triangles.vertices),
+        Err(MeshError::NotManifold { soup, .. }) => {
+            // Where the walk left sheets half joined.
+            let options = SplitOptions {
+                orientation: OrientationPolicy::Keep,
+            };
+            let (mesh, split) = TriMesh::from_soup_splitting(soup, &options)?;
+            let origin = split.vertex_origin.iter();
+            (
+                mesh,
+                origin.map(|v| triangles.vertices[v.index()]).collect(),
+            )
+        }
+        Err(error) => return Err(error.into()),
     };
-    let (mesh, split) = TriMesh::from_soup_splitting(soup, &options)?;
-    let vertices: Vec<VertexId> = split
-        .vertex_origin
-        .iter()
-        .map(|v| original(&triangles.vertices[v.index()]))
-        .collect();
+    let vertices: Vec<VertexId> = vertices.iter().map(original).collect();
 
     let mut copies = vec![0_u32; positions.len()];
     for vertex in &vertices {

@@ -11,6 +11,7 @@ use crate::canonical::Canonical;
 use glam::DVec3;
 use pellicle_delaunay::{FACET_CORNERS, FacetId, TetId, circumcenter};
 use pellicle_geometry::{VertexId, triangle};
+use rayon::prelude::*;
 
 /// cos(3π/8): a point y of V_p is in the cocone when |v_p · (y − p)| ≤ this |y − p|.
 pub(crate) const COCONE_COSINE: f64 = 0.382_683_432_365_089_8;
@@ -158,7 +159,10 @@ fn centers(canonical: &Canonical) -> Vec<DVec3> {
     };
     let (finite, infinite) = canonical.tets().split_at(canonical.finite_count());
     let mut centers: Vec<DVec3> = Vec::with_capacity(canonical.tets().len());
-    centers.extend(finite.iter().map(|&tet| of_finite(tet)));
+    finite
+        .par_iter()
+        .map(|&tet| of_finite(tet))
+        .collect_into_vec(&mut centers);
     centers.extend(infinite.iter().map(|&tet| of_infinite(tet)));
     centers
 }

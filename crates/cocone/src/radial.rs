@@ -81,34 +81,62 @@ pub(crate) struct Radial {
 impl Radial {
     pub(crate) fn of(canonical: &Canonical, set: &FacetSet) -> Self {
         let facets: Vec<FacetId> = set.iter(canonical).collect();
-        let places = Places::of(canonical, &facets);
         let mut radial = Self {
             vertices: facets.iter().map(|&f| canonical.facet(f)).collect(),
             across: vec![SideEdge::NONE; 6 * facets.len()],
             removed: vec![false; facets.len()],
             facets,
         };
-        for start in (0..radial.across.len()).map(SideEdge::new) {
-            if radial.across(start) != SideEdge::NONE {
-                continue;
+        let at_edges = AtEdges::of(canonical.vertex_count(), &radial.vertices);
+        let mut here = Vec::new();
+        for vertex in canonical.vertex_ids() {
+            here.clear();
+            here.extend_from_slice(at_edges.of_lower_vertex(vertex));
+            here.sort_unstable();
+            for edges in here.chunk_by(|a, b| a.0 == b.0) {
+                match *edges {
+                    [(_, edge)] => radial.join(edge, edge.behind()),
+                    [(_, one), (_, other)] => radial.join_two(one, other),
+                    _ => radial.join_around(canonical, set, edges),
+                }
             }
-            let opposite = radial.side_vertices(start.side())[start.place()];
-            let edge = radial.edge(start);
-            let met = canonical
-                .around_edge(radial.facet_of(canonical, start.side()), opposite)
-                .find(|&facet| set.contains(facet));
-            // The facet itself is met at last, from behind.
-            let Some(met) = met else { continue };
-            let side = places.side(canonical, met);
-            let place = radial
-                .side_vertices(side)
-                .iter()
-                .position(|v| !edge.contains(v));
-            let end = side.edges()[place.unwrap_or(0)];
-            radial.across[start.index()] = end;
-            radial.across[end.index()] = start;
         }
         radial
+    }
+
+    fn join(&mut self, one: SideEdge, other: SideEdge) {
+        self.across[one.index()] = other;
+        self.across[other.index()] = one;
+    }
+
+    /// Two facets at an edge: sides that see the same wedge run along the edge in opposite directions.
+    fn join_two(&mut self, one: SideEdge, other: SideEdge) {
+        let turned = match self.edge(one) == self.edge(other) {
+            true => other.behind(),
+            false => other,
+        };
+        self.join(one, turned);
+        self.join(one.behind(), turned.behind());
+    }
+
+    /// Three facets or more: the tetrahedra between tell in which order they come.
+    fn join_around(
+        &mut self,
+        canonical: &Canonical,
+        set: &FacetSet,
+        edges: &[(VertexId, SideEdge)],
+    ) {
+        for start in edges.iter().flat_map(|&(_, edge)| [edge, edge.behind()]) {
+            let opposite = self.side_vertices(start.side())[start.place()];
+            let met = canonical
+                .around_edge(self.facet_of(canonical, start.side()), opposite)
+                .find(|&facet| set.contains(facet));
+            let same = |edge: &SideEdge| met == Some(self.facet_of(canonical, edge.side()));
+            let mut sides = edges.iter().flat_map(|&(_, edge)| [edge, edge.behind()]);
+            if let Some(end) = sides.find(same) {
+                self.join(start, end);
+            }
+        }
     }
 
     /// How many facets there were at first; the places of sides refer to them.
@@ -236,41 +264,40 @@ impl Radial {
     }
 }
 
-/// Where facets stand in a sorted list.
-struct Places {
-    /// By tetrahedron: how many facets of the list come before those of it.
-    before: Vec<u32>,
-    /// By tetrahedron: bit i for the facet opposite corner i.
-    facets: Vec<u8>,
+/// The edges of facets by their lower vertex.
+struct AtEdges {
+    starts: Vec<u32>,
+    /// (higher vertex, edge of side `2 k`).
+    edges: Vec<(VertexId, SideEdge)>,
 }
 
-impl Places {
-    fn of(canonical: &Canonical, facets: &[FacetId]) -> Self {
-        let mut bits = vec![0_u8; canonical.tets().len()];
-        for facet in facets {
-            bits[facet.tet().index()] |= 1 << facet.corner();
+impl AtEdges {
+    fn of(vertex_count: usize, facets: &[[VertexId; 3]]) -> Self {
+        // Opposite a, b and c.
+        let ends = |[a, b, c]: [VertexId; 3]| [(b, c), (c, a), (a, b)];
+        let mut starts = vec![0_u32; vertex_count + 1];
+        for &facet in facets {
+            for (u, v) in ends(facet) {
+                starts[u.min(v).index() + 1] += 1;
+            }
         }
-        let mut count = 0;
-        let before = bits
-            .iter()
-            .map(|bits| {
-                count += bits.count_ones();
-                count - bits.count_ones()
-            })
-            .collect();
-        Self {
-            before,
-            facets: bits,
+        for vertex in 0..vertex_count {
+            starts[vertex + 1] += starts[vertex];
         }
+        let mut next = starts.clone();
+        let mut edges = vec![(VertexId::NONE, SideEdge::NONE); 3 * facets.len()];
+        for (place, &facet) in facets.iter().enumerate() {
+            let side = SideId((2 * place) as u32);
+            for ((u, v), edge) in ends(facet).into_iter().zip(side.edges()) {
+                let next = &mut next[u.min(v).index()];
+                edges[*next as usize] = (u.max(v), edge);
+                *next += 1;
+            }
+        }
+        Self { starts, edges }
     }
 
-    fn side(&self, canonical: &Canonical, facet: FacetId) -> SideId {
-        let twin = canonical.twin(facet);
-        let (stored, is_other) = match facet.tet() < twin.tet() {
-            true => (facet, 0),
-            false => (twin, 1),
-        };
-        let below = self.facets[stored.tet().index()] & ((1 << stored.corner()) - 1);
-        SideId(2 * (self.before[stored.tet().index()] + below.count_ones()) + is_other)
+    fn of_lower_vertex(&self, vertex: VertexId) -> &[(VertexId, SideEdge)] {
+        &self.edges[self.starts[vertex.index()] as usize..self.starts[vertex.index() + 1] as usize]
     }
 }
