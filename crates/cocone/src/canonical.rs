@@ -36,7 +36,10 @@ impl<'a> Canonical<'a> {
             *id
         };
         let tets = tetrahedralization.tets();
-        let tets = tets.iter().map(|tet| tet.map(&mut number)).collect();
+        let tets = tets
+            .iter()
+            .map(|&[a, b, c, d]| [number(a), number(b), number(c), number(d)])
+            .collect();
         let scale = power_of_two_scale(tetrahedralization.points());
         let points = vertices
             .iter()
@@ -104,7 +107,8 @@ impl<'a> Canonical<'a> {
     #[inline]
     pub(crate) fn facet(&self, facet: FacetId) -> [VertexId; 3] {
         let tet = self.tets[facet.tet().index()];
-        FACET_CORNERS[facet.corner()].map(|corner| tet[corner])
+        let [a, b, c] = FACET_CORNERS[facet.corner()];
+        [tet[a], tet[b], tet[c]]
     }
 
     /// Where a vertex stands in a tetrahedron that has it.

@@ -101,13 +101,16 @@ impl Poles {
     #[inline]
     pub(crate) fn wishes(&self, canonical: &Canonical, facet: FacetId) -> [bool; 3] {
         let (a, b) = (facet.tet(), canonical.twin(facet).tet());
-        FACET_CORNERS[facet.corner()].map(|corner| {
-            let vertex = canonical.tets()[a.index()][corner];
+        let corners = canonical.tets()[a.index()];
+        let wishes = |corner: usize| {
             let at_a = self.nappe(a, corner);
-            let at_b = self.nappe(b, canonical.corner_of(b, vertex));
+            let at_b = self.nappe(b, canonical.corner_of(b, corners[corner]));
             let between = Nappe::Between as u8;
             at_a == between || at_b == between || at_a != at_b
-        })
+        };
+        // Not by `map`, which is not inlined here: this runs for every facet.
+        let [i, j, k] = FACET_CORNERS[facet.corner()];
+        [wishes(i), wishes(j), wishes(k)]
     }
 
     /// How far from p the Voronoi edge dual to the facet crosses the plane through p across v_p; `None`
@@ -146,7 +149,13 @@ impl Poles {
 /// The Voronoi vertices, directions for those at infinity.
 fn centers(canonical: &Canonical) -> Vec<DVec3> {
     let of_finite = |corners: [VertexId; 4]| {
-        let [a, b, c, d] = corners.map(|v| canonical.point(v));
+        let [a, b, c, d] = corners;
+        let (a, b, c, d) = (
+            canonical.point(a),
+            canonical.point(b),
+            canonical.point(c),
+            canonical.point(d),
+        );
         circumcenter(a, b, c, d).unwrap_or_else(|| {
             // Too flat for doubles: as good as at infinity, on the side of the fourth corner.
             let normal = triangle::double_area_normal(a, b, c).normalize_or_zero();

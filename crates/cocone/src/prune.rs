@@ -6,6 +6,7 @@ use crate::radial::{Radial, SideEdge, SideId};
 use crate::umbrella::Links;
 use crate::walk::Walked;
 use glam::DVec3;
+use pellicle_geometry::VertexId;
 use pellicle_predicates::{Sign, orient3d};
 
 /// Removes candidates at sharp edges, in cascade.
@@ -21,26 +22,22 @@ pub(crate) fn prune(
     candidates: &mut FacetSet,
     radial: &mut Radial,
 ) {
-    let protected = closed_around_vertices(canonical, flat, first_walk, radial);
     let mut pending: Vec<usize> = radial.left().collect();
+    pending.retain(|&place| sharp_edge(canonical, flat, radial, place).is_some());
+    if pending.is_empty() {
+        return;
+    }
+    let fans = Fans::of(canonical, flat, first_walk, radial);
     while let Some(place) = pending.pop() {
-        if radial.is_removed(place) || protected[place] {
+        if radial.is_removed(place) || fans.close_with(radial, place) {
             continue;
         }
-        let is_sharp = |edge: &SideEdge| {
-            let ends_are_flat = radial.edge(*edge).map(|v| flat[v.index()]);
-            ends_are_flat.contains(&true) && is_sharp(canonical, radial, *edge)
-        };
-        let Some(edge) = SideId((2 * place) as u32)
-            .edges()
-            .into_iter()
-            .find(is_sharp)
-        else {
+        let Some(edge) = sharp_edge(canonical, flat, radial, place) else {
             continue;
         };
         let around: Vec<SideEdge> = radial.around(edge).collect();
         for place in around.iter().map(|edge| edge.side().facet()) {
-            if !protected[place] {
+            if !fans.close_with(radial, place) {
                 // Its other edges may become sharp.
                 for edge in SideId((2 * place) as u32).edges() {
                     pending.extend(radial.around(edge).map(|edge| edge.side().facet()));
@@ -52,24 +49,52 @@ pub(crate) fn prune(
     }
 }
 
-/// By place: whether the triangle is part of a fan that the walk found to close around a flat vertex, dead
-/// ends cut back.
-fn closed_around_vertices(
-    canonical: &Canonical,
-    flat: &[bool],
-    walked: &Walked,
-    radial: &Radial,
-) -> Vec<bool> {
-    let places: Vec<usize> = (0..radial.len()).filter(|&k| walked[k].is_some()).collect();
-    let triangles: Vec<_> = places.iter().map(|&k| radial.vertices(k)).collect();
-    let links = Links::of(canonical.vertex_count(), &triangles);
-    let mut closed = vec![false; radial.len()];
-    for vertex in canonical.vertex_ids().filter(|v| flat[v.index()]) {
-        for triangle in links.umbrella_without_dead_ends(vertex) {
-            closed[places[triangle as usize]] = true;
+/// The fans of triangles around flat vertices that a first walk found.
+struct Fans<'f> {
+    flat: &'f [bool],
+    /// Of the triangles that were walked.
+    links: Links,
+    /// By triangle of the links, its place.
+    places: Vec<usize>,
+}
+
+impl<'f> Fans<'f> {
+    fn of(canonical: &Canonical, flat: &'f [bool], walked: &Walked, radial: &Radial) -> Self {
+        let places: Vec<usize> = (0..radial.len()).filter(|&k| walked[k].is_some()).collect();
+        let triangles: Vec<_> = places.iter().map(|&k| radial.vertices(k)).collect();
+        Self {
+            flat,
+            links: Links::of(canonical.vertex_count(), &triangles),
+            places,
         }
     }
-    closed
+
+    /// Whether the triangle is part of a fan that closes around one of its vertices, dead ends cut back.
+    fn close_with(&self, radial: &Radial, place: usize) -> bool {
+        let flat = |v: &VertexId| self.flat[v.index()];
+        radial
+            .vertices(place)
+            .into_iter()
+            .filter(flat)
+            .any(|vertex| {
+                let mut fan = self.links.umbrella_without_dead_ends(vertex);
+                fan.any(|triangle| self.places[triangle as usize] == place)
+            })
+    }
+}
+
+/// A sharp edge of the facet with an end that is flat.
+fn sharp_edge(
+    canonical: &Canonical,
+    flat: &[bool],
+    radial: &Radial,
+    place: usize,
+) -> Option<SideEdge> {
+    let edges = SideId((2 * place) as u32).edges();
+    edges.into_iter().find(|&edge| {
+        let [u, v] = radial.edge(edge);
+        (flat[u.index()] || flat[v.index()]) && is_sharp(canonical, radial, edge)
+    })
 }
 
 /// Whether two consecutive triangles around the edge enclose an angle of more than 3π/2, as a single

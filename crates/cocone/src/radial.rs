@@ -42,7 +42,8 @@ impl SideId {
     /// The edges opposite its three vertices.
     #[inline]
     pub(crate) fn edges(self) -> [SideEdge; 3] {
-        [0, 1, 2].map(|place| SideEdge(3 * self.0 + place))
+        let first = 3 * self.0;
+        [SideEdge(first), SideEdge(first + 1), SideEdge(first + 2)]
     }
 }
 
