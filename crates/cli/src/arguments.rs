@@ -41,20 +41,26 @@ pub enum Verb {
     Render(Render),
 }
 
-/// What every verb understands.
+/// What every verb understands; shown after what only one verb does.
 #[derive(Debug, Args)]
 pub struct Global {
     /// Threads to use; as many as the machine has by default. The result does not depend on it
-    #[arg(long, global = true, value_name = "N")]
+    #[arg(long, global = true, display_order = 101, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
     /// Say nothing but errors
-    #[arg(long, short, global = true)]
+    #[arg(long, short, global = true, display_order = 102)]
     pub quiet: bool,
     /// Print what was found or done as JSON on standard output
-    #[arg(long, global = true)]
+    #[arg(long, global = true, display_order = 103)]
     pub json: bool,
     /// Whether to show how far the work is, on standard error
-    #[arg(long, global = true, value_name = "WHEN", default_value = "auto")]
+    #[arg(
+        long,
+        global = true,
+        display_order = 104,
+        value_name = "WHEN",
+        default_value = "auto"
+    )]
     pub progress: ProgressWhen,
 }
 
