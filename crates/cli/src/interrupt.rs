@@ -7,13 +7,16 @@ use crate::failure::Failure;
 use std::process;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// What the shell expects of a program that SIGINT ended.
 pub const EXIT_CODE: u8 = 130;
 
 /// How long the work may take to notice.
 const PATIENCE: Duration = Duration::from_millis(500);
+
+/// How long a writer may take: it asks often, but a disk can be slow, and a pipe that nobody reads never ends.
+const WRITER_PATIENCE: Duration = Duration::from_secs(5);
 
 static REQUESTED: AtomicBool = AtomicBool::new(false);
 static WRITING: AtomicBool = AtomicBool::new(false);
@@ -24,7 +27,8 @@ pub fn listen() -> Result<(), Failure> {
     let handler = || {
         REQUESTED.store(true, SeqCst);
         thread::sleep(PATIENCE);
-        while WRITING.load(SeqCst) {
+        let pressed = Instant::now();
+        while WRITING.load(SeqCst) && pressed.elapsed() < WRITER_PATIENCE {
             thread::sleep(PATIENCE / 50);
         }
         if !FINISHED.load(SeqCst) {

@@ -34,7 +34,7 @@ fn bar() -> ProgressBar {
     let target = if std::io::stderr().is_terminal() {
         ProgressDrawTarget::stderr()
     } else {
-        ProgressDrawTarget::term_like(Box::new(Plain))
+        ProgressDrawTarget::term_like_with_hz(Box::new(Plain), 2)
     };
     let style = ProgressStyle::with_template("{msg:>12} [{bar:40}] {percent:>3}% {elapsed}")
         .unwrap_or_else(|_| ProgressStyle::default_bar());
@@ -90,8 +90,10 @@ impl Progress for Watch {
                 *shown = stage;
                 bar.set_message(stage);
             }
-            bar.set_length(total);
-            bar.set_position(done);
+            bar.update(|state| {
+                state.set_len(total);
+                state.set_pos(done);
+            });
         }
         ControlFlow::Continue(())
     }

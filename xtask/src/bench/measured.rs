@@ -73,6 +73,11 @@ fn peak_in(status: &str) -> Option<u64> {
     Some(kibibytes * 1024)
 }
 
+/// The least of some numbers; infinity for none.
+pub fn minimum(values: &[f64]) -> f64 {
+    values.iter().copied().fold(f64::INFINITY, f64::min)
+}
+
 /// The middle of some numbers; the mean of the two middle ones of an even count.
 pub fn median(values: &[f64]) -> f64 {
     let mut sorted = values.to_vec();
@@ -90,6 +95,7 @@ mod tests {
     #[test]
     fn medians() {
         assert_eq!(median(&[3.0, 1.0, 2.0]), 2.0);
+        assert_eq!(minimum(&[3.0, 1.0, 2.0]), 1.0);
         assert_eq!(median(&[4.0, 1.0, 2.0, 3.0]), 2.5);
         assert!(median(&[]).is_nan());
     }
