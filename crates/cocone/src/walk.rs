@@ -65,18 +65,35 @@ fn seeds(canonical: &Canonical, candidates: &FacetSet, radial: &Radial) -> Vec<S
 
 /// SURFTRIANGLES: all sides that are reached from the seed by turning through the outside around edges.
 ///
-/// An open sheet is walked on one side only: behind its border stands the triangle itself.
+/// Edges between two facets are crossed before any others. An open sheet has its border, where behind a
+/// triangle stands the triangle itself, but it may also have edges with three facets, around which the walk
+/// gets behind it; by then all of its front is taken.
 fn surface_triangles(radial: &Radial, seed: SideId, walked: &mut Walked) {
     let mut pending = VecDeque::from([seed]);
+    let mut crowded = VecDeque::new();
     walked[seed.facet()] = Some(seed);
-    while let Some(side) = pending.pop_front() {
-        for edge in side.edges() {
-            let neighbor = radial.across(edge).side();
-            let walked = &mut walked[neighbor.facet()];
-            if walked.is_none() {
-                *walked = Some(neighbor);
-                pending.push_back(neighbor);
+    loop {
+        while let Some(side) = pending.pop_front() {
+            for edge in side.edges() {
+                let neighbor = radial.across(edge);
+                if walked[neighbor.side().facet()].is_some() {
+                    continue;
+                }
+                // Between two facets, both wedges join the same two.
+                if radial.across(edge.behind()) == neighbor.behind() {
+                    walked[neighbor.side().facet()] = Some(neighbor.side());
+                    pending.push_back(neighbor.side());
+                } else {
+                    crowded.push_back(neighbor.side());
+                }
             }
+        }
+        let Some(side) = crowded.pop_front() else {
+            return;
+        };
+        if walked[side.facet()].is_none() {
+            walked[side.facet()] = Some(side);
+            pending.push_back(side);
         }
     }
 }
