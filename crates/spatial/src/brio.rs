@@ -7,7 +7,7 @@
 use crate::hilbert;
 use glam::DVec3;
 use pellicle_geometry::Aabb;
-use std::cmp::Ordering;
+use pellicle_predicates::lifted::lexicographic;
 
 /// About how many points the first round holds.
 const FIRST_ROUND: usize = 64;
@@ -107,12 +107,6 @@ fn order_lexicographically(points: &[DVec3], cell: &mut [u32]) {
     cell.sort_unstable_by(|&i, &j| {
         lexicographic(points[i as usize], points[j as usize]).then(i.cmp(&j))
     });
-}
-
-/// Compares finite points by x, then y, then z.
-fn lexicographic(a: DVec3, b: DVec3) -> Ordering {
-    let axis = |a: f64, b: f64| a.partial_cmp(&b).unwrap_or(Ordering::Equal);
-    axis(a.x, b.x).then(axis(a.y, b.y)).then(axis(a.z, b.z))
 }
 
 /// A grid of 2²⁰ cells along the longest side of a box.
