@@ -5,6 +5,7 @@ mod candidates;
 mod canonical;
 mod error;
 mod facet_set;
+mod normals;
 mod options;
 mod poles;
 mod prune;
@@ -17,6 +18,7 @@ mod umbrella;
 mod walk;
 
 pub use error::Error;
+pub use normals::{normals, normals_with};
 pub use options::{Acceptance, Method, Options};
 pub use report::Report;
 
