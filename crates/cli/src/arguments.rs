@@ -1,8 +1,8 @@
 //! What can be said on the command line.
 
 use crate::commands::{
-    compare::Compare, convert::Convert, delaunay::Delaunay, info::Info, reconstruct::Reconstruct,
-    render::Render,
+    compare::Compare, convert::Convert, delaunay::Delaunay, info::Info, normals::Normals,
+    reconstruct::Reconstruct, render::Render,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
@@ -35,6 +35,8 @@ pub enum Verb {
     Info(Info),
     /// Convert between formats
     Convert(Convert),
+    /// Estimate an oriented normal at every point
+    Normals(Normals),
     /// Measure the distance between two surfaces
     Compare(Compare),
     /// Draw a mesh or points, from several sides, on one sheet

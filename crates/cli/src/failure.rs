@@ -1,7 +1,7 @@
 //! Everything that can end a run, and what helps.
 
 use miette::Diagnostic;
-use pellicle::geometry::Cancelled;
+use pellicle::geometry::{Cancelled, CloudError};
 use pellicle::{cocone, delaunay, io, mesh, render};
 use std::fmt;
 use std::path::PathBuf;
@@ -46,6 +46,9 @@ pub enum Failure {
         /// The reason.
         reason: mesh::MeshError,
     },
+    /// Normals do not fit their points.
+    #[error(transparent)]
+    Cloud(#[from] CloudError),
     /// A picture was not drawn.
     #[error("{}: {reason}", .path.display())]
     Render {

@@ -10,11 +10,12 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::tempdir;
 
-const VERBS: [&str; 6] = [
+const VERBS: [&str; 7] = [
     "reconstruct",
     "delaunay",
     "info",
     "convert",
+    "normals",
     "compare",
     "render",
 ];
@@ -119,6 +120,7 @@ fn nothing_is_overwritten_without_force() {
         ("delaunay", "out.vtk"),
         ("delaunay", "out.off"),
         ("convert", "out.csv"),
+        ("normals", "out.ply"),
         ("render", "out.png"),
     ] {
         let folder = tempdir().unwrap();
@@ -150,6 +152,7 @@ fn what_a_format_cannot_hold_is_said_before_the_work() {
         (["reconstruct", &half, "-o", "out.xyz"], "ply"),
         (["reconstruct", &half, "-o", "out"], "extension"),
         (["delaunay", &half, "-o", "out.xyz"], "vtk"),
+        (["normals", &half, "-o", "out.stl"], "ply"),
         (["render", &half, "-o", "out.jpg"], "png"),
         (
             ["convert", &fixture("analytic/cube.off"), "-o", "out.pcd"],
@@ -180,7 +183,7 @@ fn flat_and_tiny_inputs_are_explained() {
         ("plane.xyz", "0 0 0\n1 0 0\n0 1 0\n1 1 0\n2 5 0\n", "plane"),
     ] {
         std::fs::write(folder.path().join(name), content).unwrap();
-        for verb in ["reconstruct", "delaunay"] {
+        for verb in ["reconstruct", "delaunay", "normals"] {
             let assert = pellicle(folder.path())
                 .args([verb, name, "-o", "out.ply"])
                 .assert()
@@ -324,6 +327,7 @@ fn ctrl_c_stops_within_a_second_and_leaves_no_half_file() {
         (&["delaunay", "large.ply", "-o", "out.vtk"], 1200),
         (&["reconstruct", "large.ply", "-o", "out.ply"], 1200),
         (&["convert", "large.ply", "-o", "out.csv"], 400),
+        (&["normals", "large.ply", "-o", "out.ply"], 1200),
         (&["info", "large.ply"], 200),
         (&["compare", "large.ply", "large.ply"], 1000),
     ] {

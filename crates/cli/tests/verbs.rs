@@ -225,6 +225,24 @@ fn convert_to_single_precision_says_so() {
 }
 
 #[test]
+fn normals_are_of_length_one_and_point_outwards() {
+    let folder = tempdir().unwrap();
+    let sphere = fixture("analytic/sphere.off");
+    pellicle(folder.path())
+        .args(["normals", &sphere, "-o", "n.ply"])
+        .assert()
+        .success();
+    let Data::Points(cloud) = data(&folder.path().join("n.ply")) else {
+        panic!("no points");
+    };
+    let center = cloud.bounds().center();
+    for (p, n) in cloud.positions().iter().zip(cloud.normals().unwrap()) {
+        assert!((n.length() - 1.0).abs() < 1e-9);
+        assert!(n.dot((*p - center).normalize()) > 0.9, "{p} {n}");
+    }
+}
+
+#[test]
 fn delaunay_writes_tetrahedra_hull_and_facets() {
     let folder = tempdir().unwrap();
     let cube = fixture("analytic/cube.off");
@@ -341,6 +359,7 @@ fn every_verb_reports_as_json() {
         ("reconstruct", "r.ply"),
         ("delaunay", "d.vtk"),
         ("convert", "c.ply"),
+        ("normals", "n.ply"),
         ("render", "p.png"),
     ] {
         let done = json(folder.path(), &[verb, &kitten, "-o", out]);

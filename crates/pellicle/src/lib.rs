@@ -60,7 +60,7 @@
 //! # Ok::<(), pellicle::delaunay::Error>(())
 //! ```
 //!
-//! ## Reconstruct a closed surface
+//! ## Reconstruct a closed surface, or normals
 //!
 //! Cocone leaves open what the points do not support; Tight Cocone always returns the boundary of a solid.
 //!
@@ -76,6 +76,9 @@
 //! assert!(surface.mesh.is_closed());
 //! // The point that each vertex of the mesh is:
 //! assert_eq!(points[surface.vertices[0].index()], surface.mesh.positions()[0]);
+//!
+//! let normals = cocone::normals(&tetrahedra);
+//! assert_eq!(normals.len(), points.len());
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

@@ -4,6 +4,7 @@ pub mod compare;
 pub mod convert;
 pub mod delaunay;
 pub mod info;
+pub mod normals;
 pub mod reconstruct;
 pub mod render;
 
@@ -24,6 +25,7 @@ pub fn run(verb: Verb, global: &Global) -> Result<(), Failure> {
         Verb::Delaunay(verb) => verb.run(global, &watch),
         Verb::Info(verb) => verb.run(global, &watch),
         Verb::Convert(verb) => verb.run(global, &watch),
+        Verb::Normals(verb) => verb.run(global, &watch),
         Verb::Compare(verb) => verb.run(global, &watch),
         Verb::Render(verb) => verb.run(global, &watch),
     }
