@@ -22,8 +22,7 @@ pub(crate) fn prune(
     candidates: &mut FacetSet,
     radial: &mut Radial,
 ) {
-    let mut pending: Vec<usize> = radial.left().collect();
-    pending.retain(|&place| sharp_edge(canonical, flat, radial, place).is_some());
+    let mut pending = at_sharp_edges(canonical, flat, radial);
     if pending.is_empty() {
         return;
     }
@@ -81,6 +80,26 @@ impl<'f> Fans<'f> {
                 fan.any(|triangle| self.places[triangle as usize] == place)
             })
     }
+}
+
+/// The places of the facets at sharp edges with an end that is flat.
+fn at_sharp_edges(canonical: &Canonical, flat: &[bool], radial: &Radial) -> Vec<usize> {
+    let mut places = Vec::new();
+    for place in radial.left() {
+        for edge in SideId((2 * place) as u32).edges() {
+            // Each edge once: from its facet of the lowest place, unless there are many.
+            let neighbor = radial.across(edge).side().facet();
+            let [u, v] = radial.edge(edge);
+            if place <= neighbor
+                && (flat[u.index()] || flat[v.index()])
+                && is_sharp(canonical, radial, edge)
+            {
+                places.push(place);
+                places.extend(radial.around(edge).map(|edge| edge.side().facet()));
+            }
+        }
+    }
+    places
 }
 
 /// A sharp edge of the facet with an end that is flat.

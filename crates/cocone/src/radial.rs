@@ -237,31 +237,21 @@ impl Radial {
         }
     }
 
-    /// The components along edges: by place of a facet, the number of its component, and how many there
-    /// are.
-    pub(crate) fn components(&self) -> (Vec<u32>, usize) {
-        let mut component = vec![u32::MAX; self.facets.len()];
-        let mut count = 0;
-        let mut pending = Vec::new();
-        for seed in self.left() {
-            if component[seed] != u32::MAX {
-                continue;
-            }
-            component[seed] = count;
-            pending.push(seed);
-            while let Some(place) = pending.pop() {
-                let side = SideId((2 * place) as u32);
-                for edge in side.edges().into_iter().chain(side.other().edges()) {
-                    let neighbor = self.across(edge).side().facet();
-                    if component[neighbor] == u32::MAX {
-                        component[neighbor] = count;
-                        pending.push(neighbor);
-                    }
+    /// Marks, by place, the facets that are joined to this one along edges, and counts them.
+    pub(crate) fn mark_component(&self, seed: SideId, marked: &mut [bool]) -> usize {
+        let mut count = 1;
+        let mut pending = vec![seed];
+        marked[seed.facet()] = true;
+        while let Some(side) = pending.pop() {
+            for edge in side.edges().into_iter().chain(side.other().edges()) {
+                let neighbor = self.across(edge).side();
+                if !std::mem::replace(&mut marked[neighbor.facet()], true) {
+                    count += 1;
+                    pending.push(neighbor);
                 }
             }
-            count += 1;
         }
-        (component, count as usize)
+        count
     }
 }
 
