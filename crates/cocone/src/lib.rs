@@ -1,4 +1,31 @@
 //! The Cocone family: surfaces through points, without normals.
+//!
+//! **The data.** In goes a [`Tetrahedralization`], which borrows the
+//! points; out comes a [`Reconstruction`]: a [`TriMesh`] of facets of it, the point that each
+//! of its vertices is, and a [`Report`]. Coordinates are in the caller's units and stay as they are, to the last
+//! bit.
+//!
+//! **The verbs.** [`reconstruct`] takes the facets whose dual Voronoi edge meets a *cocone*, the part of a Voronoi cell
+//! near the tangent plane; prunes them at sharp edges; and walks over what is left from outside (Dey 2006,
+//! chapter 4), keeping away from places that are undersampled (Dey and Giesen 2001).
+//! [`Method::TightCocone`] closes the surface (Dey and Goswami 2003) to the boundary of a solid, a manifold for
+//! any input. [`normals`] gives unit normals at the points.
+//!
+//! ```
+//! use pellicle_cocone::{Options, reconstruct};
+//! use pellicle_delaunay::tetrahedralize;
+//! use pellicle_geometry::DVec3;
+//!
+//! // 20 × 10 points on a torus.
+//! let angle = |i: u32, n: u32| f64::from(i) / f64::from(n) * std::f64::consts::TAU;
+//! let ring = |u: f64, v: f64| DVec3::new((2.0 + v.cos()) * u.cos(), (2.0 + v.cos()) * u.sin(), v.sin());
+//! let points: Vec<DVec3> = (0..200).map(|i| ring(angle(i % 20, 20), angle(i / 20, 10))).collect();
+//! let tetrahedra = tetrahedralize(&points, &Default::default())?;
+//! let surface = reconstruct(&tetrahedra, &Options::default())?;
+//! assert!(surface.mesh.is_closed());
+//! assert_eq!(surface.mesh.triangles().len(), 400);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 #![forbid(unsafe_code)]
 
 mod candidates;
@@ -13,6 +40,8 @@ mod radial;
 mod report;
 mod sheet;
 mod solid;
+#[cfg(test)]
+mod tests;
 mod tight;
 mod umbrella;
 mod walk;
