@@ -49,7 +49,7 @@ mod walk;
 pub use error::Error;
 pub use normals::{normals, normals_with};
 pub use options::{Acceptance, Method, Options};
-pub use report::Report;
+pub use report::{Component, Report};
 
 use candidates::Wishes;
 use canonical::Canonical;
@@ -184,6 +184,7 @@ fn mesh(canonical: &Canonical, triangles: Triangles) -> Result<Reconstruction, E
         used: copies.len() - dropped.len(),
         dropped,
         split: with(|copies| copies > 1),
+        components: Component::all(&mesh),
         ..Report::default()
     };
     Ok(Reconstruction {

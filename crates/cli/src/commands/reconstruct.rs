@@ -51,8 +51,28 @@ struct Done {
     candidate_triangles: usize,
     pruned_triangles: usize,
     undersampled_points: usize,
+    components: Vec<Component>,
     closed: bool,
     bytes: u64,
+}
+
+#[derive(Serialize)]
+struct Component {
+    triangles: usize,
+    vertices: usize,
+    genus: usize,
+    borders: usize,
+}
+
+impl From<&cocone::Component> for Component {
+    fn from(component: &cocone::Component) -> Self {
+        Self {
+            triangles: component.triangles,
+            vertices: component.vertices,
+            genus: component.genus,
+            borders: component.borders,
+        }
+    }
 }
 
 impl Reconstruct {
@@ -85,6 +105,17 @@ impl Reconstruct {
             mesh.triangles().len(),
             if mesh.is_closed() { "closed" } else { "open" }
         );
+        if report.used < cloud.len() / 2 {
+            tracing::warn!(
+                "{} of {} points found no place in the surface: the sample is sparse or noisy there{}",
+                cloud.len() - report.used,
+                cloud.len(),
+                match self.method {
+                    Method::Cocone => "; `--method tight-cocone` closes what is left open",
+                    Method::TightCocone => "",
+                }
+            );
+        }
         let done = Done {
             points: cloud.len(),
             points_used: report.used,
@@ -94,6 +125,7 @@ impl Reconstruct {
             candidate_triangles: report.candidate_triangles,
             pruned_triangles: report.pruned_triangles,
             undersampled_points: report.undersampled.len(),
+            components: report.components.iter().map(Component::from).collect(),
             closed: mesh.is_closed(),
             input: self.input,
             output: self.target.output,
