@@ -100,17 +100,29 @@ impl Poles {
     /// in it, or the ends lie in opposite nappes. A nappe is convex, so otherwise it does not.
     #[inline]
     pub(crate) fn wishes(&self, canonical: &Canonical, facet: FacetId) -> [bool; 3] {
-        let (a, b) = (facet.tet(), canonical.twin(facet).tet());
-        let corners = canonical.tets()[a.index()];
-        let wishes = |corner: usize| {
-            let at_a = self.nappe(a, corner);
-            let at_b = self.nappe(b, canonical.corner_of(b, corners[corner]));
+        let twin = canonical.twin(facet);
+        let (a, b) = (facet.tet(), twin.tet());
+        // From the other side the vertices come in opposite order, starting with any of them.
+        let [i, j, k] = FACET_CORNERS[facet.corner()];
+        let [x, y, z] = FACET_CORNERS[twin.corner()];
+        let first = canonical.tets()[a.index()][i];
+        let others = canonical.tets()[b.index()];
+        let [l, m, n] = if others[x] == first {
+            [x, z, y]
+        } else if others[y] == first {
+            [y, x, z]
+        } else {
+            [z, y, x]
+        };
+        let wishes = |at_a: u8, at_b: u8| {
             let between = Nappe::Between as u8;
             at_a == between || at_b == between || at_a != at_b
         };
-        // Not by `map`, which is not inlined here: this runs for every facet.
-        let [i, j, k] = FACET_CORNERS[facet.corner()];
-        [wishes(i), wishes(j), wishes(k)]
+        [
+            wishes(self.nappe(a, i), self.nappe(b, l)),
+            wishes(self.nappe(a, j), self.nappe(b, m)),
+            wishes(self.nappe(a, k), self.nappe(b, n)),
+        ]
     }
 
     /// How far from p the Voronoi edge dual to the facet crosses the plane through p across v_p; `None`
