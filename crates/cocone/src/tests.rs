@@ -3,11 +3,15 @@
 use crate::candidates::Wishes;
 use crate::canonical::Canonical;
 use crate::options::Acceptance;
-use crate::poles::{COCONE_COSINE, Poles};
+use crate::poles::Poles;
 use glam::DVec3;
 use pellicle_delaunay::{FacetId, Tetrahedralization, VoronoiVertex, tetrahedralize};
 use pellicle_geometry::VertexId;
 use proptest::prelude::*;
+
+fn cocone_cosine() -> f64 {
+    (3.0 * std::f64::consts::PI / 8.0).cos()
+}
 
 /// v_p by its definition, from the Voronoi cell of the caller's vertex.
 fn pole_vector(tetrahedralization: &Tetrahedralization, vertex: VertexId) -> DVec3 {
@@ -33,11 +37,12 @@ fn pole_vector(tetrahedralization: &Tetrahedralization, vertex: VertexId) -> DVe
 fn clearance(p: DVec3, v: DVec3, ends: [VoronoiVertex; 2]) -> f64 {
     let above = |direction: DVec3| {
         let cosine = direction.normalize().dot(v);
-        cosine * cosine - COCONE_COSINE * COCONE_COSINE
+        cosine * cosine - cocone_cosine() * cocone_cosine()
     };
     // A zero of the quadratic form between two samples of one sign would be missed by sampling alone: the
     // vertex of the parabola t ↦ (y·v)² − c² y² is a sample too.
-    let form = |y: DVec3, z: DVec3| y.dot(v) * z.dot(v) - COCONE_COSINE * COCONE_COSINE * y.dot(z);
+    let form =
+        |y: DVec3, z: DVec3| y.dot(v) * z.dot(v) - cocone_cosine() * cocone_cosine() * y.dot(z);
     let (a, along, is_ray) = match ends {
         // From the nearer end on: the other may be so far away that the difference loses all digits.
         [VoronoiVertex::Finite(a), VoronoiVertex::Finite(b)] => {
