@@ -90,16 +90,24 @@ pub fn reconstruct_with(
 ) -> Result<Reconstruction, Error> {
     let step = |done| Cancelled::check(progress.step("reconstruct", done, 7));
     step(0)?;
+
+    // 1. Poles and pole vectors.
     let canonical = Canonical::of(tetrahedralization);
     let poles = Poles::of(&canonical);
     step(1)?;
+
+    // 2. The triangles that meet cocones, and the vertices that are sampled well enough to say so.
     let wishes = Wishes::of(&canonical, &poles);
     let flat = wishes.flat(&canonical, &poles);
     step(2)?;
+
+    // 3. Candidate triangles.
     let mut candidates = wishes.candidates(&canonical, &flat, options.acceptance);
     drop((wishes, poles));
     let candidate_triangles = candidates.len();
     step(3)?;
+
+    // 4. Prune sharp edges, but for what a first walk shows to be surface; then walk the manifold.
     let mut radial = Radial::of(&canonical, &candidates);
     let mut walked = walk::extract(&canonical, &candidates, &radial);
     step(4)?;
@@ -108,6 +116,8 @@ pub fn reconstruct_with(
         walked = walk::extract(&canonical, &candidates, &radial);
     }
     step(5)?;
+
+    // 5. The surface itself, or the solid that it bounds where it is closed.
     let (triangles, moved_tetrahedra) = match options.method {
         Method::Cocone => (Triangles::of(&radial, &walked), 0),
         Method::TightCocone => {
@@ -117,6 +127,8 @@ pub fn reconstruct_with(
         }
     };
     step(6)?;
+
+    // 6. The mesh, and the report.
     let mut reconstruction = mesh(&canonical, triangles)?;
     step(7)?;
     let report = &mut reconstruction.report;

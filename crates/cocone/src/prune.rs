@@ -15,6 +15,10 @@ use pellicle_predicates::{Sign, orient3d};
 /// from its border inwards. Two things stop it here. An edge whose ends both lack a flat cell may be a
 /// border, and is left alone. And what a first walk finds to close around a flat vertex is what the walk
 /// is after: it is never removed.
+///
+/// Where rows of points run along the rulings of a surface, slivers between neighbouring rows make a slab of
+/// candidates, around no vertex of which a fan closes, and which the cascade eats whole. A pruning that
+/// would leave most flat vertices without a triangle is not done at all.
 pub(crate) fn prune(
     canonical: &Canonical,
     flat: &[bool],
@@ -27,6 +31,7 @@ pub(crate) fn prune(
         return;
     }
     let fans = Fans::of(canonical, flat, first_walk, radial);
+    let unpruned = candidates.clone();
     while let Some(place) = pending.pop() {
         if radial.is_removed(place) || fans.close_with(radial, place) {
             continue;
@@ -46,6 +51,30 @@ pub(crate) fn prune(
             }
         }
     }
+    if leaves_most_bare(canonical, flat, radial) {
+        *radial = Radial::of(canonical, &unpruned);
+        *candidates = unpruned;
+    }
+}
+
+/// Whether most of the flat vertices that had triangles have none any more.
+fn leaves_most_bare(canonical: &Canonical, flat: &[bool], radial: &Radial) -> bool {
+    let mut had = vec![false; canonical.vertex_count()];
+    let mut has = had.clone();
+    for place in 0..radial.len() {
+        for vertex in radial.vertices(place) {
+            had[vertex.index()] = true;
+            has[vertex.index()] |= !radial.is_removed(place);
+        }
+    }
+    let count = |some: &[bool]| {
+        let flat_ones = some
+            .iter()
+            .zip(flat)
+            .filter(|(some, flat)| **some && **flat);
+        flat_ones.count()
+    };
+    2 * count(&has) < count(&had)
 }
 
 /// The fans of triangles around flat vertices that a first walk found.

@@ -307,3 +307,10 @@ fn work_stops_when_asked_at_every_step() {
         }
     }
 }
+
+#[test]
+fn a_surface_ruled_along_its_rows_of_points_is_not_pruned_away() {
+    let points = off("analytic/moebius.off");
+    let reconstruction = run(&points, Method::Cocone);
+    assert_eq!(reconstruction.report.used, points.len());
+}
