@@ -179,7 +179,7 @@ impl<'s> Solid<'s> {
 
     /// The parts of a vertex's star, in the order of their first tetrahedra.
     fn parts(&self, vertex: VertexId) -> Vec<Part> {
-        let mut star = self.star(vertex);
+        let mut star = star(self.canonical, vertex);
         star.sort_unstable();
         let mut part_of = vec![usize::MAX; star.len()];
         let mut parts = Vec::new();
@@ -199,7 +199,7 @@ impl<'s> Solid<'s> {
                 part.weight += self.weight(tet);
                 part.removable &= self.removals[tet.index()] < MOST_REMOVALS;
                 part.tets.push(tet);
-                for neighbor in self.neighbors_at(tet, vertex) {
+                for neighbor in neighbors_at(self.canonical, tet, vertex) {
                     let Ok(place) = star.binary_search(&neighbor) else {
                         continue;
                     };
@@ -222,29 +222,33 @@ impl<'s> Solid<'s> {
         let good = corners.iter().filter(|v| self.good[v.index()]).count();
         1.0 + 2.0 * good as f64
     }
+}
 
-    /// The neighbours of `tet` across the facets that hold `vertex`.
-    fn neighbors_at(&self, tet: TetId, vertex: VertexId) -> impl Iterator<Item = TetId> + use<> {
-        let own = self.canonical.corner_of(tet, vertex);
-        let twins = self.canonical.twins(tet);
-        (0..4)
-            .filter(move |&corner| corner != own)
-            .map(move |corner| twins[corner].tet())
-    }
-
-    /// All tetrahedra at a vertex.
-    fn star(&self, vertex: VertexId) -> Vec<TetId> {
-        let mut star: Vec<TetId> = self.canonical.incident(vertex).into_iter().collect();
-        let mut seen: BTreeSet<TetId> = star.iter().copied().collect();
-        let mut next = 0;
-        while let Some(&tet) = star.get(next) {
-            next += 1;
-            for neighbor in self.neighbors_at(tet, vertex) {
-                if seen.insert(neighbor) {
-                    star.push(neighbor);
-                }
+/// All tetrahedra at a vertex.
+pub(crate) fn star(canonical: &Canonical, vertex: VertexId) -> Vec<TetId> {
+    let mut star: Vec<TetId> = canonical.incident(vertex).into_iter().collect();
+    let mut seen: BTreeSet<TetId> = star.iter().copied().collect();
+    let mut next = 0;
+    while let Some(&tet) = star.get(next) {
+        next += 1;
+        for neighbor in neighbors_at(canonical, tet, vertex) {
+            if seen.insert(neighbor) {
+                star.push(neighbor);
             }
         }
-        star
     }
+    star
+}
+
+/// The neighbours of `tet` across the facets that hold `vertex`.
+fn neighbors_at(
+    canonical: &Canonical,
+    tet: TetId,
+    vertex: VertexId,
+) -> impl Iterator<Item = TetId> + use<> {
+    let own = canonical.corner_of(tet, vertex);
+    let twins = canonical.twins(tet);
+    (0..4)
+        .filter(move |&corner| corner != own)
+        .map(move |corner| twins[corner].tet())
 }

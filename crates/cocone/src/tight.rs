@@ -1,22 +1,28 @@
-//! Tight Cocone (Dey and Goswami 2003): mark tetrahedra inside and outside, peel, take the boundary.
+//! Tight Cocone (Dey and Goswami 2003): mark tetrahedra inside and outside, take the boundary.
 //!
-//! 1. A vertex is *good* when the triangles that Cocone found at it form an umbrella: then it knows which of the tetrahedra
-//!    around it lie on the same side.
-//! 2. *Mark.* Outside spreads from infinity: across a facet with a good vertex the side changes exactly
-//!    where the facet is one of those triangles.
-//! 3. *Peel.* Tetrahedra without a good vertex say nothing. Outside enters them through any facet but their
-//!    smallest, the widest first; then marking goes on behind them.
-//! 4. What outside has not reached is inside. The set is made such that its boundary is a manifold, which
-//!    the published method leaves open.
+//! 1. A vertex is *good* when the triangles that Cocone found at it form an umbrella: then it knows which of
+//!    the tetrahedra around it lie on the same side.
+//! 2. Where all vertices are good, *mark*: outside spreads from infinity, and the side changes exactly at
+//!    those triangles. The boundary is Cocone's surface.
+//! 3. Otherwise good vertices may contradict each other, and elsewhere nobody says anything. The published
+//!    method takes what comes first and peels the rest. Here all evidence is collected, and
+//!    a minimum cut (Labatut et al. 2009) takes the sides that agree best with it and whose boundary costs least.
+//! 4. The set inside is made such that its boundary is a manifold, which the published method leaves open.
+
+mod cut;
+mod evidence;
+mod forest;
+mod scales;
 
 use crate::canonical::Canonical;
 use crate::facet_set::FacetSet;
 use crate::sheet::Sheet;
 use crate::solid::{Side, Solid};
 use crate::umbrella::Links;
+use cut::{NO_ARC, Network};
+use evidence::Evidence;
 use pellicle_delaunay::{FacetId, TetId};
-use pellicle_geometry::triangle;
-use std::collections::{BinaryHeap, VecDeque};
+use scales::Scales;
 
 /// The boundary of the tetrahedra inside, seen from outside, and how many of them were moved to make it a
 /// manifold. `surface` is what Cocone found.
@@ -31,130 +37,103 @@ pub(crate) fn close(canonical: &Canonical, surface: &FacetSet) -> (Sheet, usize)
         .map(|v| links.is_umbrella(v))
         .collect();
 
-    let sides = Marking::of(canonical, surface, &good);
+    let sides = match good.contains(&false) {
+        false => mark(canonical, surface),
+        true => cut_apart(canonical, surface, &good),
+    };
     let mut solid = Solid::new(canonical, sides, &good);
     let moved = solid.make_manifold();
     (solid.boundary(), moved)
 }
 
-/// Sides known so far, and what waits to be marked.
-struct Marking<'m> {
-    canonical: &'m Canonical<'m>,
-    surface: &'m FacetSet,
-    good: &'m [bool],
-    sides: Vec<Option<Side>>,
-    /// By number of good vertices less one: who is on which side. The surest go first.
-    marks: [VecDeque<(TetId, Side)>; 3],
-    /// Facets through which outside may enter a tetrahedron, seen from the tetrahedron.
-    doors: BinaryHeap<Door>,
+/// The sides when all vertices are good: the surface is closed, so every way from infinity says the same.
+fn mark(canonical: &Canonical, surface: &FacetSet) -> Vec<Side> {
+    let mut sides = vec![None; canonical.tets().len()];
+    let mut pending: Vec<TetId> = tet_ids(canonical).skip(canonical.finite_count()).collect();
+    for tet in &pending {
+        sides[tet.index()] = Some(Side::Outside);
+    }
+    while let Some(tet) = pending.pop() {
+        let side = sides[tet.index()].unwrap_or(Side::Outside);
+        for twin in canonical.twins(tet) {
+            let neighbor = &mut sides[twin.tet().index()];
+            if neighbor.is_none() {
+                *neighbor = Some(match surface.contains(twin) {
+                    true => side.opposite(),
+                    false => side,
+                });
+                pending.push(twin.tet());
+            }
+        }
+    }
+    let known = |side: Option<Side>| side.unwrap_or(Side::Outside);
+    sides.into_iter().map(known).collect()
 }
 
-/// A facet without good vertices that an unmarked tetrahedron has on the outside.
-struct Door {
-    circumradius: f64,
-    into: FacetId,
-}
+/// The sides that agree best with the evidence and have a cheap boundary.
+fn cut_apart(canonical: &Canonical, surface: &FacetSet, good: &[bool]) -> Vec<Side> {
+    let scales = Scales::of(canonical);
+    let Evidence { votes, sure } = Evidence::of(&scales, surface, good);
+    let mut sides: Vec<Side> = (tet_ids(canonical).zip(&votes))
+        .map(
+            |(tet, &vote)| match canonical.is_finite(tet) && vote >= 0.0 {
+                true => Side::Inside,
+                false => Side::Outside,
+            },
+        )
+        .collect();
 
-impl Marking<'_> {
-    fn of(canonical: &Canonical, surface: &FacetSet, good: &[bool]) -> Vec<Side> {
-        let mut marking = Marking {
-            canonical,
-            surface,
-            good,
-            sides: vec![None; canonical.tets().len()],
-            marks: Default::default(),
-            doors: BinaryHeap::new(),
+    // Only tetrahedra in doubt are nodes; the others add what a boundary to them costs to the terminals.
+    let doubtful: Vec<TetId> = tet_ids(canonical).filter(|t| !sure[t.index()]).collect();
+    let mut nodes = vec![NO_ARC; sides.len()];
+    for (node, tet) in doubtful.iter().enumerate() {
+        nodes[tet.index()] = node as u32;
+    }
+    let mut twins = vec![[NO_ARC; 4]; doubtful.len()];
+    let mut capacities = vec![[0; 4]; doubtful.len()];
+    let mut terminals = Vec::with_capacity(doubtful.len());
+    for (node, &tet) in doubtful.iter().enumerate() {
+        let mut terminal = -to_capacity(votes[tet.index()]);
+        for (corner, twin) in canonical.twins(tet).into_iter().enumerate() {
+            let cost = facet_cost(&scales, surface, twin.min(FacetId::of(tet, corner)));
+            let neighbor = twin.tet().index();
+            match (nodes[neighbor], sides[neighbor]) {
+                (NO_ARC, Side::Outside) => terminal += cost,
+                (NO_ARC, Side::Inside) => terminal -= cost,
+                (neighbor, _) => {
+                    twins[node][corner] = 4 * neighbor + twin.corner() as u32;
+                    capacities[node][corner] = cost;
+                }
+            }
+        }
+        terminals.push(terminal);
+    }
+    let is_outside = Network::new(twins, capacities, terminals).source_side();
+    for (tet, is_outside) in doubtful.iter().zip(is_outside) {
+        sides[tet.index()] = match is_outside {
+            true => Side::Outside,
+            false => Side::Inside,
         };
-        for infinite in canonical.finite_count()..canonical.tets().len() {
-            marking.sides[infinite] = Some(Side::Outside);
-        }
-        for infinite in canonical.finite_count()..canonical.tets().len() {
-            marking.spread_from(TetId::new(infinite), Side::Outside);
-        }
-        marking.mark();
-        while let Some(door) = marking.doors.pop() {
-            let tet = door.into.tet();
-            if marking.sides[tet.index()].is_none() && !marking.is_smallest(door.into) {
-                marking.set(tet, Side::Outside);
-                marking.mark();
-            }
-        }
-        let unreached = |side: Option<Side>| side.unwrap_or(Side::Inside);
-        marking.sides.into_iter().map(unreached).collect()
     }
-
-    fn mark(&mut self) {
-        while let Some((tet, side)) = self.marks.iter_mut().rev().find_map(VecDeque::pop_front) {
-            if self.sides[tet.index()].is_none() {
-                self.set(tet, side);
-            }
-        }
-    }
-
-    fn set(&mut self, tet: TetId, side: Side) {
-        self.sides[tet.index()] = Some(side);
-        self.spread_from(tet, side);
-    }
-
-    /// What the side of `tet` says of its neighbours.
-    fn spread_from(&mut self, tet: TetId, side: Side) {
-        for (corner, twin) in self.canonical.twins(tet).into_iter().enumerate() {
-            if self.sides[twin.tet().index()].is_some() {
-                continue;
-            }
-            let facet = FacetId::of(tet, corner);
-            let vertices = self.canonical.facet(facet);
-            let is_good = |v: &&pellicle_geometry::VertexId| {
-                **v != Canonical::INFINITE && self.good[v.index()]
-            };
-            let neighbor_side = match self.surface.contains(facet) {
-                true => side.opposite(),
-                false => side,
-            };
-            match vertices.iter().filter(is_good).count() {
-                0 if side == Side::Outside => self.doors.push(Door {
-                    circumradius: self.circumradius(facet),
-                    into: twin,
-                }),
-                0 => {}
-                count => self.marks[count - 1].push_back((twin.tet(), neighbor_side)),
-            }
-        }
-    }
-
-    /// Whether no facet of the tetrahedron has a smaller circumcircle.
-    fn is_smallest(&self, facet: FacetId) -> bool {
-        let others = (0..4).map(|corner| FacetId::of(facet.tet(), corner));
-        let smallest = others
-            .map(|other| (self.circumradius(other), other))
-            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        smallest.is_some_and(|(_, smallest)| smallest == facet)
-    }
-
-    fn circumradius(&self, facet: FacetId) -> f64 {
-        let [a, b, c] = self.canonical.facet(facet).map(|v| self.canonical.point(v));
-        let product = a.distance(b) * b.distance(c) * c.distance(a);
-        product / (4.0 * triangle::area(a, b, c))
-    }
+    sides
 }
 
-impl PartialEq for Door {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
+fn tet_ids(canonical: &Canonical) -> impl ExactSizeIterator<Item = TetId> + use<> {
+    (0..canonical.tets().len()).map(TetId::new)
 }
 
-impl Eq for Door {}
-
-impl PartialOrd for Door {
-    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
-        Some(self.cmp(other))
-    }
+/// What the facet costs in the boundary: little where it looks like one of a well-sampled surface, a lot where
+/// it is large for the points there, a fifth where Cocone has it too. The same from both sides.
+fn facet_cost(scales: &Scales, surface: &FacetSet, facet: FacetId) -> i64 {
+    let width = scales.facet_width(facet).min(20.0);
+    let cost = 0.05 + scales.facet_bend(facet) + 0.25 * width * width;
+    to_capacity(match surface.contains(facet) {
+        true => 0.2 * cost,
+        false => cost,
+    })
 }
 
-impl Ord for Door {
-    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        let by_width = self.circumradius.total_cmp(&other.circumradius);
-        by_width.then(self.into.cmp(&other.into))
-    }
+/// Integers, so that sums do not depend on their order.
+fn to_capacity(cost: f64) -> i64 {
+    (cost * 65536.0) as i64
 }
