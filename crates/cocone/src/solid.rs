@@ -92,6 +92,49 @@ impl<'s> Solid<'s> {
         moves
     }
 
+    /// Draws the boundary to vertices whose stars lie on one side and next to it; how many moves that took.
+    ///
+    /// A tetrahedron at the vertex whose opposite facet is in the boundary changes sides: that puts three
+    /// facets at the vertex for the one, so the boundary stays the manifold it was.
+    pub(crate) fn reach(&mut self, vertices: &[VertexId]) -> usize {
+        let mut moves = 0;
+        for &vertex in vertices {
+            let star = star(self.canonical, vertex);
+            if star.iter().any(|&tet| self.side(tet) != self.side(star[0])) {
+                continue;
+            }
+            let behind =
+                |tet: TetId| self.canonical.twins(tet)[self.canonical.corner_of(tet, vertex)];
+            let next_to_it = star.iter().copied().filter(|&tet| {
+                self.canonical.is_finite(tet) && self.side(behind(tet).tet()) != self.side(tet)
+            });
+            let reach = |tet: TetId| -> f64 {
+                let corners = self.canonical.tets()[tet.index()].map(|v| self.canonical.point(v));
+                let point = self.canonical.point(vertex);
+                corners.iter().map(|corner| corner.distance(point)).sum()
+            };
+            let nearest = next_to_it
+                .filter(|&tet| self.is_near(tet, vertex))
+                .min_by(|&a, &b| reach(a).total_cmp(&reach(b)).then(a.cmp(&b)));
+            if let Some(tet) = nearest {
+                moves += 1;
+                self.change_side(tet);
+            }
+        }
+        moves
+    }
+
+    /// Whether each edge at `vertex` is at most twice as long as the longest of the facet opposite: no spike.
+    fn is_near(&self, tet: TetId, vertex: VertexId) -> bool {
+        let facet = FacetId::of(tet, self.canonical.corner_of(tet, vertex));
+        let [a, b, c] = self.canonical.facet(facet).map(|v| self.canonical.point(v));
+        let longest = a.distance(b).max(b.distance(c)).max(c.distance(a));
+        let point = self.canonical.point(vertex);
+        [a, b, c]
+            .iter()
+            .all(|corner| corner.distance(point) <= 2.0 * longest)
+    }
+
     /// The boundary, each facet as seen from outside.
     pub(crate) fn boundary(&self) -> Sheet {
         let mut sheet = Sheet::empty(self.canonical);

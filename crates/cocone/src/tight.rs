@@ -22,6 +22,7 @@ use crate::umbrella::Links;
 use cut::{NO_ARC, Network};
 use evidence::Evidence;
 use pellicle_delaunay::{FacetId, TetId};
+use pellicle_geometry::VertexId;
 use scales::Scales;
 
 /// The boundary of the tetrahedra inside, seen from outside, and how many of them were moved to make it a
@@ -37,12 +38,12 @@ pub(crate) fn close(canonical: &Canonical, surface: &FacetSet) -> (Sheet, usize)
         .map(|v| links.is_umbrella(v))
         .collect();
 
-    let sides = match good.contains(&false) {
-        false => mark(canonical, surface),
+    let (sides, wanted) = match good.contains(&false) {
+        false => (mark(canonical, surface), Vec::new()),
         true => cut_apart(canonical, surface, &good),
     };
     let mut solid = Solid::new(canonical, sides, &good);
-    let moved = solid.make_manifold();
+    let moved = solid.make_manifold() + solid.reach(&wanted);
     (solid.boundary(), moved)
 }
 
@@ -70,8 +71,13 @@ fn mark(canonical: &Canonical, surface: &FacetSet) -> Vec<Side> {
     sides.into_iter().map(known).collect()
 }
 
-/// The sides that agree best with the evidence and have a cheap boundary.
-fn cut_apart(canonical: &Canonical, surface: &FacetSet, good: &[bool]) -> Vec<Side> {
+/// The sides that agree best with the evidence and have a cheap boundary, and the vertices that the boundary
+/// ought to reach: those with many good neighbours, which are not noise, but no outliers.
+fn cut_apart(
+    canonical: &Canonical,
+    surface: &FacetSet,
+    good: &[bool],
+) -> (Vec<Side>, Vec<VertexId>) {
     let scales = Scales::of(canonical);
     let Evidence { votes, sure } = Evidence::of(&scales, surface, good);
     let mut sides: Vec<Side> = (tet_ids(canonical).zip(&votes))
@@ -115,7 +121,9 @@ fn cut_apart(canonical: &Canonical, surface: &FacetSet, good: &[bool]) -> Vec<Si
             false => Side::Inside,
         };
     }
-    sides
+    let is_wanted =
+        |v: &VertexId| scales.share_of_neighbors(*v, good) >= 0.4 && !scales.is_remote(*v);
+    (sides, canonical.vertex_ids().filter(is_wanted).collect())
 }
 
 fn tet_ids(canonical: &Canonical) -> impl ExactSizeIterator<Item = TetId> + use<> {

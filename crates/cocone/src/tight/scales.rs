@@ -98,6 +98,13 @@ impl<'s> Scales<'s> {
         known.filter(|v| set[v.index()]).count() as f64 / NEIGHBORS as f64
     }
 
+    /// Whether a vertex is much farther from its neighbours than the nearest of them is from its own.
+    pub(super) fn is_remote(&self, vertex: VertexId) -> bool {
+        let (_, neighbor) = self.nearest[vertex.index()][0];
+        let spacing = |v: VertexId| self.spacings.get(v.index()).copied().unwrap_or(0.0);
+        spacing(vertex) > 1.5 * spacing(neighbor)
+    }
+
     /// 1 − min(cos φ, cos ψ), with φ and ψ the angles in which the facet meets the circumspheres of the
     /// tetrahedra at it (Labatut et al. 2009): 0 where both spheres are nearly flat there, as at a
     /// well-sampled surface, up to 2.
