@@ -95,7 +95,7 @@ impl Target {
                 Err(Failure::File(io::Error::Io {
                     path,
                     action: "created",
-                    source: std::io::Error::new(ErrorKind::NotFound, reason),
+                    reason: std::io::Error::new(ErrorKind::NotFound, reason),
                 }))
             }
             _ => Ok(()),

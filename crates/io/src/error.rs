@@ -62,14 +62,14 @@ pub enum Error {
         path: PathBuf,
     },
     /// The operating system refused.
-    #[error("{}: cannot be {action}: {source}", .path.display())]
+    #[error("{}: cannot be {action}: {reason}", .path.display())]
     Io {
         /// The file.
         path: PathBuf,
         /// What was tried: "opened", "read", "created", "written".
         action: &'static str,
-        /// The reason.
-        source: std::io::Error,
+        /// Why. Part of the message, and so not its `source`.
+        reason: std::io::Error,
     },
     /// The file breaks its format, or uses a part of it that is not supported.
     #[error("{}: {location}: {reason}", .path.display())]

@@ -172,14 +172,10 @@ fn read_path(
     options: &ReadOptions,
     keep: Keep,
 ) -> Result<(Contents, ReadReport), Error> {
-    let format = match options.format {
-        Some(format) => format,
-        None => Format::from_path(path)?,
-    };
-    let open_error = |source| Error::Io {
+    let open_error = |reason| Error::Io {
         path: path.to_owned(),
         action: "opened",
-        source,
+        reason,
     };
     let metadata = std::fs::metadata(path).map_err(open_error)?;
     if metadata.is_dir() {
@@ -187,6 +183,10 @@ fn read_path(
             path: path.to_owned(),
         });
     }
+    let format = match options.format {
+        Some(format) => format,
+        None => Format::from_path(path)?,
+    };
     let mut file = File::open(path).map_err(open_error)?;
     let base = path.parent();
     if metadata.is_file() {

@@ -191,7 +191,7 @@ fn create_error(path: &Path, source: io::Error) -> Error {
     Error::Io {
         path: path.to_owned(),
         action: "created",
-        source,
+        reason: source,
     }
 }
 
@@ -199,6 +199,6 @@ fn write_error(path: &Path, source: io::Error) -> Error {
     Error::Io {
         path: path.to_owned(),
         action: "written",
-        source,
+        reason: source,
     }
 }

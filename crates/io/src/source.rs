@@ -298,6 +298,6 @@ pub(crate) fn read_error(path: &Path, source: std::io::Error) -> Error {
     Error::Io {
         path: path.to_owned(),
         action: "read",
-        source,
+        reason: source,
     }
 }

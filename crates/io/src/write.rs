@@ -212,7 +212,7 @@ pub fn write_png(
         .map_err(|e| Error::Io {
             path: path.to_owned(),
             action: "encoded",
-            source: std::io::Error::other(e),
+            reason: std::io::Error::other(e),
         })?;
     let mut sink = Sink::create(path, options.overwrite, options.progress, 1)?;
     sink.put(&encoded)?;
