@@ -140,6 +140,11 @@ impl<'a> Canonical<'a> {
         self.tetrahedralization.incident(self.original(vertex))
     }
 
+    /// All tetrahedra at a vertex, infinite ones included.
+    pub(crate) fn around_vertex(&self, vertex: VertexId) -> impl Iterator<Item = TetId> + '_ {
+        self.tetrahedralization.around_vertex(self.original(vertex))
+    }
+
     /// The facet sides met when turning around an edge of `facet` from its tetrahedron on, away from the
     /// facet itself, which comes last, seen from behind:
     ///

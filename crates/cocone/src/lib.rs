@@ -74,7 +74,16 @@ pub struct Reconstruction {
     pub report: Report,
 }
 
-/// Reconstructs a surface through the points of a tetrahedralisation.
+/// Reconstructs a surface through the points of a tetrahedralisation, whose coordinates and ids the result
+/// keeps.
+///
+/// Near-linear in the number of tetrahedra for Cocone, and for Tight Cocone where Cocone's surface is
+/// closed; elsewhere a minimum cut comes on top. A surface without triangles is a result, not an error: see
+/// [`Report::undersampled`].
+///
+/// # Errors
+///
+/// More triangles than ids can name.
 pub fn reconstruct(
     tetrahedralization: &Tetrahedralization,
     options: &Options,
@@ -82,7 +91,7 @@ pub fn reconstruct(
     reconstruct_with(tetrahedralization, options, &())
 }
 
-/// [`reconstruct`], watched by `progress`.
+/// [`reconstruct`], watched by `progress`, whose `Break` makes it return [`Error::Cancelled`].
 pub fn reconstruct_with(
     tetrahedralization: &Tetrahedralization,
     options: &Options,

@@ -99,7 +99,7 @@ impl<'s> Solid<'s> {
     pub(crate) fn reach(&mut self, vertices: &[VertexId]) -> usize {
         let mut moves = 0;
         for &vertex in vertices {
-            let star = star(self.canonical, vertex);
+            let star: Vec<TetId> = self.canonical.around_vertex(vertex).collect();
             if star.iter().any(|&tet| self.side(tet) != self.side(star[0])) {
                 continue;
             }
@@ -222,7 +222,7 @@ impl<'s> Solid<'s> {
 
     /// The parts of a vertex's star, in the order of their first tetrahedra.
     fn parts(&self, vertex: VertexId) -> Vec<Part> {
-        let mut star = star(self.canonical, vertex);
+        let mut star: Vec<TetId> = self.canonical.around_vertex(vertex).collect();
         star.sort_unstable();
         let mut part_of = vec![usize::MAX; star.len()];
         let mut parts = Vec::new();
@@ -265,22 +265,6 @@ impl<'s> Solid<'s> {
         let good = corners.iter().filter(|v| self.good[v.index()]).count();
         1.0 + 2.0 * good as f64
     }
-}
-
-/// All tetrahedra at a vertex.
-pub(crate) fn star(canonical: &Canonical, vertex: VertexId) -> Vec<TetId> {
-    let mut star: Vec<TetId> = canonical.incident(vertex).into_iter().collect();
-    let mut seen: BTreeSet<TetId> = star.iter().copied().collect();
-    let mut next = 0;
-    while let Some(&tet) = star.get(next) {
-        next += 1;
-        for neighbor in neighbors_at(canonical, tet, vertex) {
-            if seen.insert(neighbor) {
-                star.push(neighbor);
-            }
-        }
-    }
-    star
 }
 
 /// The neighbours of `tet` across the facets that hold `vertex`.

@@ -9,7 +9,7 @@
 //! | vertex | cell |
 
 use crate::{FacetId, TetId, Tetrahedralization, circumcenter::circumcenter};
-use pellicle_geometry::{DVec3, VertexId};
+use pellicle_geometry::{DVec3, VertexId, triangle};
 
 /// A Voronoi vertex.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -82,14 +82,9 @@ impl Tetrahedralization<'_> {
     }
 
     /// The unit normal of a triangle of vertices, zero for one without area.
-    fn normal(&self, triangle: [VertexId; 3]) -> DVec3 {
-        let [a, b, c] = triangle.map(|v| self.points()[v.index()] * 0.5);
-        let (u, v) = (b - a, c - a);
-        let size = u.abs().max(v.abs()).max_element();
-        if size == 0.0 {
-            return DVec3::ZERO;
-        }
-        (u / size).cross(v / size).normalize_or_zero()
+    fn normal(&self, facet: [VertexId; 3]) -> DVec3 {
+        let [a, b, c] = facet.map(|v| self.points()[v.index()]);
+        triangle::unit_normal(a, b, c).unwrap_or(DVec3::ZERO)
     }
 
     /// The finite Voronoi vertices with the tetrahedra they are dual to.
