@@ -156,6 +156,7 @@
 pub use glam;
 pub use pellicle_cocone as cocone;
 pub use pellicle_delaunay as delaunay;
+pub use pellicle_evolution as evolution;
 pub use pellicle_geometry as geometry;
 pub use pellicle_io as io;
 pub use pellicle_mesh as mesh;

@@ -1,0 +1,1 @@
+//! The regularised distance to a point cloud on a grid of voxels.

@@ -1,0 +1,1 @@
+//! Sparse linear systems: rows in compressed form, preconditioners, BiCGStab.
