@@ -2,4 +2,9 @@
 #![forbid(unsafe_code)]
 
 mod distance;
+mod error;
+mod field;
 pub mod linear;
+
+pub use error::Error;
+pub use field::{Field, One, Sample};
