@@ -12,7 +12,7 @@ pub enum Error {
     #[error(
         "the surface must be closed, and {}",
         match edge {
-            Some([a, b]) => format!("the edge between its vertices {a} and {b} has one triangle; close it first"),
+            Some([a, b]) => format!("the edge between its vertices {} and {} has one triangle; close it first", a.0, b.0),
             None => "has no triangles".to_owned(),
         }
     )]
@@ -22,8 +22,9 @@ pub enum Error {
     },
     /// A vertex would have left all bounds; the surface stands where it stood before the step.
     #[error(
-        "step {step} would move vertex {vertex} from {position} to infinity or NaN: take a smaller time step, \
-         or remesh a surface that has collapsed"
+        "step {step} would move vertex {} from {position} to infinity or NaN: take a smaller time step, \
+         or remesh a surface that has collapsed",
+        vertex.0
     )]
     NotFinite {
         /// The step, from one.
