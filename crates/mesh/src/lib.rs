@@ -11,7 +11,9 @@
 //!
 //! - [`TriMesh::try_from`] refuses what is no manifold and names every [`Defect`];
 //!   [`TriMesh::from_soup_splitting`] cuts it until it is one, and reports the cuts.
-//! - [`validate()`] lists all defects; [`summarize`] measures; [`self_intersections`] finds triangles that meet
+//! - [`icosphere`] makes the unit sphere; [`subdivide`] cuts every triangle in four.
+//! - [`validate()`] lists all defects; [`summarize`] measures, and [`quality`] the shapes of
+//!   triangles alone; [`self_intersections`] finds triangles that meet
 //!   where they should not, exactly; [`compare`] measures distances.
 //!
 //! ```
@@ -38,7 +40,9 @@ mod error;
 mod frame;
 mod id;
 mod measure;
+mod quality;
 mod self_intersection;
+mod shapes;
 mod soup;
 mod split;
 mod trimesh;
@@ -49,7 +53,9 @@ pub use distance::{Comparison, DistanceOptions, Distances, compare, distances};
 pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};
 pub use measure::{Component, Shape, Summary, area, signed_volume, summarize};
+pub use quality::{AngleBounds, Quality, quality};
 pub use self_intersection::{count_self_intersections, self_intersections, triangles_intersect};
+pub use shapes::{icosphere, subdivide};
 pub use soup::{MeshView, TriangleSoup, VertexRemap};
 pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};
 pub use trimesh::TriMesh;

@@ -244,6 +244,21 @@ impl TriMesh {
         );
     }
 
+    /// The mesh with these triangles and twins, which the caller knows to be those of an oriented manifold.
+    /// Linear time.
+    pub(crate) fn from_connected(
+        positions: Vec<DVec3>,
+        triangles: Vec<[VertexId; 3]>,
+        twins: Vec<HalfEdgeId>,
+    ) -> Self {
+        let outgoing = outgoing(&triangles, &twins, positions.len());
+        Self {
+            positions,
+            triangles,
+            connectivity: Connectivity { twins, outgoing },
+        }
+    }
+
     /// The positions and triangles, without the guarantee.
     pub fn into_soup(self) -> TriangleSoup {
         TriangleSoup {
