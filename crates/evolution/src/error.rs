@@ -37,6 +37,60 @@ pub enum Error {
     /// A mesh could not be made.
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// The distance to no points is undefined.
+    #[error("the cloud has no points")]
+    EmptyCloud,
+    /// A point has a coordinate that is infinite or not a number.
+    #[error("point {index} has a coordinate that is not finite")]
+    PointNotFinite {
+        /// The point's index in the caller's slice.
+        index: usize,
+    },
+    /// More points than 32 bits can name.
+    #[error("{count} points are more than 2^32 - 2")]
+    TooManyPoints {
+        /// How many.
+        count: usize,
+    },
+    /// The box of the distance grid has no size, so no voxel size follows from it.
+    #[error(
+        "the box of the distance grid has no size: all points coincide, or its bounds are empty; give bounds"
+    )]
+    ZeroExtent,
+    /// The box of the distance grid is not finite, or its longest side overflows.
+    #[error("the box of the distance grid is not finite: scale the points")]
+    BoundsNotFinite,
+    /// The given bounds lie so far from every point that the field would be rounding alone.
+    #[error(
+        "the nearest point lies {voxels:.3e} voxels outside of the bounds; at most {limit:.0e} make sense"
+    )]
+    BoundsFarFromPoints {
+        /// The distance of the nearest point from the box, in voxels.
+        voxels: f64,
+        /// The largest distance that is accepted.
+        limit: f64,
+    },
+    /// The distance grid would take more memory than its options allow.
+    #[error(
+        "the distance grid needs {needed} bytes of memory, and the limit is {limit}: lower the resolution, store it \
+         sparsely, or raise the limit"
+    )]
+    GridTooLarge {
+        /// Bytes at the peak; saturates.
+        needed: u64,
+        /// Bytes that the options allow.
+        limit: u64,
+    },
+    /// An option is outside of its range.
+    #[error("option {option} is {value}, and has to be {expected}")]
+    Option {
+        /// The field of the options.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it has to be.
+        expected: &'static str,
+    },
     /// The observer asked for a stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
