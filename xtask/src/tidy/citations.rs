@@ -28,6 +28,12 @@ const NOT_AUTHORS: [&str; 20] = [
     "C",
 ];
 
+/// What may stand before a family name and belongs to it.
+const PARTICLES: [&str; 2] = ["van der", "van"];
+
+/// What may stand before a citation.
+const OPENING: [char; 5] = ['(', '[', '"', '“', '*'];
+
 /// The keys of the bibliography: lines that begin `- **Key**`.
 pub fn keys(bibliography: &str) -> BTreeSet<String> {
     bibliography
@@ -60,22 +66,37 @@ pub fn check_prose(file: &str, text: &str, keys: &BTreeSet<String>) -> Vec<Findi
 /// The citations of a text, each with the line of its year. A citation may run over a line's end; comment
 /// marks between its words do not count.
 fn citations(text: &str) -> Vec<(usize, String)> {
-    let words: Vec<(usize, &str)> = text
+    let words = text
         .lines()
         .enumerate()
         .flat_map(|(index, line)| line.split_whitespace().map(move |word| (index + 1, word)))
-        .filter(|(_, word)| !matches!(*word, "//" | "///" | "//!" | "*" | ">" | "-"))
-        .collect();
+        .filter(|(_, word)| !matches!(*word, "//" | "///" | "//!" | "*" | ">" | "-"));
+    let words = with_particles(words);
     (0..words.len())
         .filter_map(|at| {
-            let year = year(words[at].1)?;
+            let year = year(&words[at].1)?;
             let before: Vec<&str> = words[at.saturating_sub(3)..at]
                 .iter()
-                .map(|(_, word)| *word)
+                .map(|(_, word)| word.as_str())
                 .collect();
             Some((words[at].0, format!("{} {year}", authors(&before)?)))
         })
         .collect()
+}
+
+/// "van der" and the name that follows as one word: they are part of it.
+fn with_particles<'a>(words: impl Iterator<Item = (usize, &'a str)>) -> Vec<(usize, String)> {
+    let mut joined: Vec<(usize, String)> = Vec::new();
+    for (line, word) in words {
+        match joined.last_mut() {
+            Some((_, last)) if PARTICLES.contains(&last.trim_start_matches(OPENING)) => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            _ => joined.push((line, word.to_owned())),
+        }
+    }
+    joined
 }
 
 /// `2003`, `(2003)`, `2003),` and the like.
@@ -107,9 +128,13 @@ fn authors(before: &[&str]) -> Option<String> {
 
 /// The word as a family name, without an opening bracket or quotation mark; `None` if it cannot be one.
 fn author(word: &str) -> Option<&str> {
-    let name = word.trim_start_matches(['(', '[', '"', '“', '*']);
-    let starts = name.chars().next().is_some_and(char::is_uppercase);
-    let letters = name
+    let name = word.trim_start_matches(OPENING);
+    let proper = PARTICLES
+        .iter()
+        .find_map(|particle| name.strip_prefix(particle)?.strip_prefix(' '))
+        .unwrap_or(name);
+    let starts = proper.chars().next().is_some_and(char::is_uppercase);
+    let letters = proper
         .chars()
         .all(|c| c.is_alphabetic() || c == '-' || c == '’');
     let shouted = name.chars().count() > 1 && name.chars().all(|c| c.is_uppercase() || c == '-');
@@ -135,6 +160,12 @@ mod tests {
             ("Dey and Goswami (2003).", "Dey and Goswami 2003"),
             ("see Amenta et al. 2002; then", "Amenta et al. 2002"),
             ("see Amenta, Choi and Kolluri 2001", "Choi and Kolluri 2001"),
+            ("(van der Vorst 1992)", "van der Vorst 1992"),
+            ("of\n/// van\n/// der Vorst 1992", "van der Vorst 1992"),
+            (
+                "Sleijpen and van der Vorst 1995",
+                "Sleijpen and van der Vorst 1995",
+            ),
             ("O and Müller-Ångström 1999", "O and Müller-Ångström 1999"),
         ] {
             assert_eq!(found(text), [key], "{text}");
