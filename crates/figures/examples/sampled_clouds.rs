@@ -1,19 +1,19 @@
 //! Samples meshes whose topology is known, reconstructs the samples, and compares: five meshes, seven ways to
 //! sample each, one row of a Markdown table a cloud.
 //!
-//! `cargo run --release -p pellicle --example sampled_clouds -- [tight-cocone|cocone] [SEED]`; by default Tight
+//! `cargo run --release -p pellicle-figures --example sampled_clouds -- [tight-cocone|cocone] [SEED]`; by default Tight
 //! Cocone and seed 1. The same seed gives the same clouds.
 
 use pellicle::geometry::Aabb;
 use pellicle::mesh::{DistanceOptions, Summary, compare, count_self_intersections, summarize};
 use pellicle::prelude::*;
+use pellicle_figures::{AreaSampler, Random, clouds};
 use std::collections::HashMap;
-use std::f64::consts::TAU;
 use std::time::Instant;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
-/// The meshes, and how many points to take from each (see [`Truth::scatter`]).
+/// The meshes, and how many points to take from each (see [`AreaSampler::scatter`]).
 const MESHES: [(&str, usize); 5] = [
     ("fandisk.off", 12_000),
     ("tm_featuretype.stl", 16_000),
@@ -156,8 +156,6 @@ fn topology(summary: &Summary) -> Option<(usize, usize)> {
 /// A mesh to sample.
 struct Truth {
     soup: TriangleSoup,
-    /// For each triangle, twice the area of the triangles up to it.
-    cumulative: Vec<f64>,
     diagonal: f64,
     topology: (usize, usize),
 }
@@ -175,81 +173,31 @@ impl Truth {
         let topology = topology(&summary)
             .filter(|_| summary.is_closed())
             .ok_or_else(|| format!("{file} is no closed manifold"))?;
-        let mut sum = 0.0;
-        let mut cumulative = Vec::new();
-        for triangle in &soup.triangles {
-            let [a, b, c] = triangle.map(|v| soup.positions[v.index()]);
-            sum += (b - a).cross(c - a).length();
-            cumulative.push(sum);
-        }
         Ok(Self {
             soup,
-            cumulative,
             diagonal,
             topology,
         })
     }
 
     fn sample(&self, recipe: Recipe, count: usize, random: &mut Random) -> Vec<DVec3> {
+        let sampler = AreaSampler::new((&self.soup).into());
         let mut points = match recipe {
-            Recipe::Uniform => (0..count).map(|_| self.point(random)).collect(),
-            Recipe::Varying => self.scatter(count, random, 0.35),
-            _ => self.scatter(count, random, 1.0),
+            Recipe::Uniform => (0..count).map(|_| sampler.point(random)).collect(),
+            Recipe::Varying => sampler.scatter(count, random, 0.35),
+            _ => sampler.scatter(count, random, 1.0),
         };
         match recipe {
             Recipe::Even | Recipe::Uniform | Recipe::Varying => {}
-            Recipe::Noise(share) => {
-                for p in &mut points {
-                    *p += share * self.diagonal * random.vector(Random::normal);
-                }
-            }
+            Recipe::Noise(share) => clouds::displace(&mut points, share * self.diagonal, random),
             Recipe::Outliers => {
-                let Aabb { min, max } = Aabb::of_points(&self.soup.positions);
-                for _ in 0..points.len() / 100 {
-                    points.push(min + (max - min) * (1.2 * random.vector(Random::unit) - 0.1));
-                }
+                let region = Aabb::of_points(&self.soup.positions);
+                let count = points.len() / 100;
+                points.extend((0..count).map(|_| clouds::around(region, random)));
             }
             Recipe::MissingPatch => {
                 let center = points[points.len() / 3];
-                points.retain(|p| p.distance(center) > 0.04 * self.diagonal);
-            }
-        }
-        points
-    }
-
-    /// A point, uniform over the area.
-    fn point(&self, random: &mut Random) -> DVec3 {
-        let last = self.cumulative.len() - 1;
-        let at = random.unit() * self.cumulative[last];
-        let triangle = self.cumulative.partition_point(|&sum| sum < at).min(last);
-        let [a, b, c] = self.soup.triangles[triangle].map(|v| self.soup.positions[v.index()]);
-        let (mut u, mut v) = (random.unit(), random.unit());
-        if u + v > 1.0 {
-            (u, v) = (1.0 - u, 1.0 - v);
-        }
-        a + (b - a) * u + (c - a) * v
-    }
-
-    /// Random points, of which those stay that are a distance from all that stayed before: `near` times d beside
-    /// the first vertex, growing to d. Discs of diameter d so placed at last fill 54.7 % of a plane, so that
-    /// `count` of them have `count`·π d²/4 = 0.547·area. The tries end before: `near` = 1 leaves about 0.82 `count`.
-    fn scatter(&self, count: usize, random: &mut Random, near: f64) -> Vec<DVec3> {
-        let area = self.cumulative[self.cumulative.len() - 1] / 2.0;
-        let distance = (0.70 * area / count as f64).sqrt();
-        let mut cells: HashMap<[i64; 3], Vec<DVec3>> = HashMap::new();
-        let mut points = Vec::new();
-        for _ in 0..12 * count {
-            let p = self.point(random);
-            let [x, y, z] = (p / distance).floor().to_array().map(|x| x as i64);
-            let away = (2.0 * p.distance(self.soup.positions[0]) / self.diagonal).min(1.0);
-            let least = (near + (1.0 - near) * away) * distance;
-            let clear = (0..27)
-                .filter_map(|i| cells.get(&[x + i % 3 - 1, y + i / 3 % 3 - 1, z + i / 9 - 1]))
-                .flatten()
-                .all(|q| q.distance(p) >= least);
-            if clear {
-                cells.entry([x, y, z]).or_default().push(p);
-                points.push(p);
+                points = clouds::without_patch(&points, center, 0.04 * self.diagonal);
             }
         }
         points
@@ -263,37 +211,5 @@ fn merge(soup: &mut TriangleSoup, spacing: f64) {
         let p = soup.positions[corner.index()] / spacing;
         let cell = p.round().to_array().map(|x| x as i64);
         *corner = *first.entry(cell).or_insert(*corner);
-    }
-}
-
-/// SplitMix64.
-struct Random(u64);
-
-impl Random {
-    /// Distinct streams of one seed start far apart.
-    fn new(seed: u64, stream: u64) -> Self {
-        Self(Self(Self(seed).next() ^ stream).next())
-    }
-
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [0, 1).
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// Normal with mean 0 and variance 1 (Box–Muller).
-    fn normal(&mut self) -> f64 {
-        let radius = (-2.0 * (1.0 - self.unit()).ln()).sqrt();
-        radius * (TAU * self.unit()).cos()
-    }
-
-    fn vector(&mut self, of: impl Fn(&mut Self) -> f64) -> DVec3 {
-        DVec3::new(of(self), of(self), of(self))
     }
 }
