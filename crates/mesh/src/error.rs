@@ -1,6 +1,6 @@
 //! What can go wrong.
 
-use crate::{Defect, TriangleSoup};
+use crate::{Defect, Refusal, TriangleSoup};
 use pellicle_geometry::{Cancelled, DVec3, VertexId};
 
 /// Why a mesh operation refused its input.
@@ -47,6 +47,19 @@ pub enum MeshError {
         /// Which of the two arguments.
         side: &'static str,
     },
+    /// An option has a value that means nothing.
+    #[error("{option} is {value}: {expected}")]
+    InvalidOption {
+        /// The name of the field.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
+    /// An edit of connectivity was refused.
+    #[error(transparent)]
+    Refused(#[from] Refusal),
     /// The work was stopped by its observer.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -36,6 +36,7 @@
 
 mod distance;
 mod edge_table;
+mod edit;
 mod error;
 mod frame;
 mod id;
@@ -50,6 +51,7 @@ mod union_find;
 mod validate;
 
 pub use distance::{Comparison, DistanceOptions, Distances, compare, distances};
+pub use edit::{MeshEditor, Refusal};
 pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};
 pub use measure::{Component, Shape, Summary, area, signed_volume, summarize};

@@ -259,6 +259,11 @@ impl TriMesh {
         }
     }
 
+    /// Positions, triangles and twins: what [`Self::from_connected`] takes.
+    pub(crate) fn into_connected(self) -> (Vec<DVec3>, Vec<[VertexId; 3]>, Vec<HalfEdgeId>) {
+        (self.positions, self.triangles, self.connectivity.twins)
+    }
+
     /// The positions and triangles, without the guarantee.
     pub fn into_soup(self) -> TriangleSoup {
         TriangleSoup {

@@ -68,8 +68,8 @@ fn check_subdivision(mesh: &TriMesh) {
         assert_eq!(finer.positions()[old + n], 0.5 * a + 0.5 * b);
     }
     for (t, triangle) in mesh.triangles().iter().enumerate() {
-        for i in 0..3 {
-            assert_eq!(finer.triangles()[4 * t + i][i], triangle[i]);
+        for (i, &corner) in triangle.iter().enumerate() {
+            assert_eq!(finer.triangles()[4 * t + i][i], corner);
         }
         assert!(
             finer.triangles()[4 * t + 3]
