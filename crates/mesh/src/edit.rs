@@ -4,7 +4,7 @@ mod collapse;
 mod flip;
 mod split;
 
-use crate::{HalfEdgeId, MeshError, MeshView, TriMesh, TriangleId, VertexRemap};
+use crate::{HalfEdgeId, MeshView, TriMesh, TriangleId, VertexRemap};
 use pellicle_geometry::{DVec3, VertexId};
 
 /// Why an edit was refused: the mesh stays as it was.
@@ -209,10 +209,6 @@ impl MeshEditor {
             positions: &self.positions,
             triangles: &self.triangles,
         }
-    }
-
-    pub(crate) fn check_size(&self) -> Result<(), MeshError> {
-        self.view().check_size()
     }
 }
 

@@ -42,6 +42,7 @@ mod frame;
 mod id;
 mod measure;
 mod quality;
+mod remesh;
 mod self_intersection;
 mod shapes;
 mod soup;
@@ -56,6 +57,10 @@ pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};
 pub use measure::{Component, Shape, Summary, area, signed_volume, summarize};
 pub use quality::{AngleBounds, Quality, quality};
+pub use remesh::{
+    CurvatureLength, ImproveOptions, Projection, RemeshOptions, RemeshReport, TargetLength,
+    improve, remesh,
+};
 pub use self_intersection::{count_self_intersections, self_intersections, triangles_intersect};
 pub use shapes::{icosphere, subdivide};
 pub use soup::{MeshView, TriangleSoup, VertexRemap};
