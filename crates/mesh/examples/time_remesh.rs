@@ -20,7 +20,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         Ok(levels) => stretched(levels)?,
         Err(_) => TriMesh::from_soup_splitting(read_off(source)?, &SplitOptions::default())?.0,
     };
+    let crease_angle = arguments
+        .get(3)
+        .map_or(Ok(None), |a| a.parse().map(|a: f64| (a > 0.0).then_some(a)))?;
     let options = RemeshOptions {
+        crease_angle: crease_angle.map(f64::to_radians),
         target: TargetLength::Relative(factor),
         iterations,
         ..RemeshOptions::default()

@@ -12,6 +12,8 @@
 //! - [`TriMesh::try_from`] refuses what is no manifold and names every [`Defect`];
 //!   [`TriMesh::from_soup_splitting`] cuts it until it is one, and reports the cuts.
 //! - [`icosphere`] makes the unit sphere; [`subdivide`] cuts every triangle in four.
+//! - [`remesh()`] makes new triangles of even size and good angles for the same surface; [`improve`] makes those there
+//!   are better. [`MeshEditor`] splits, collapses and flips single edges.
 //! - [`validate()`] lists all defects; [`summarize`] measures, and [`quality`] the shapes of
 //!   triangles alone; [`self_intersections`] finds triangles that meet
 //!   where they should not, exactly; [`compare`] measures distances.

@@ -36,8 +36,8 @@ const SIDE_SQUARED: f64 = 2.309_401_076_758_503;
 /// Last, triangles with angles below 30° or above 120° are mended one by one, as far as the geometry allows.
 ///
 /// Topology stays: components, genus, borders. Borders, and creases sharper than an angle, stay as curves: their
-/// vertices move along them only, and corners stay. No step turns a triangle by more than 60° or folds the surface
-/// across an edge, unless it was folded. The same mesh and options give the same result on any number of threads.
+/// vertices move along them only, and corners stay. No move and no collapse turns a triangle by more than 60°, and
+/// nothing folds the surface across an edge unless it was folded. The same mesh and options give the same result on any number of threads.
 ///
 /// About O(n log n) a round in the larger of input and result.
 ///
@@ -75,7 +75,7 @@ pub fn remesh(
     step(0)?;
     state.drop_needles();
     state.mark_creases(options);
-    state.reference(mesh, options);
+    state.keep_reference(options);
     state.check_size()?;
     step(1)?;
     for round in 0..options.iterations {
@@ -133,7 +133,7 @@ pub fn improve(
     let total = u64::from(options.iterations) + 1;
     let step = |done: u64| Cancelled::check(progress.step(STAGE, done, total));
     state.mark_creases(&options);
-    state.reference(mesh, &options);
+    state.keep_reference(&options);
     for round in 0..options.iterations {
         step(u64::from(round))?;
         state.enlarge_angles();
@@ -215,13 +215,12 @@ impl State {
     }
 
     /// Measures the lengths wanted, and keeps what is projected onto.
-    fn reference(&mut self, original: &TriMesh, options: &RemeshOptions) {
+    fn keep_reference(&mut self, options: &RemeshOptions) {
         self.measure_lengths(options);
         self.curves = Curves::of(&self.editor);
         if options.projection == Projection::Surface {
+            // Needles are gone by now, and with them normals that mean nothing.
             let (current, _) = self.editor.clone().finish();
-            // Needles are gone from the surface as it is now, and with them normals that mean nothing.
-            let _ = original;
             self.surface = Some(Surface::new(&current, self.lengths.clone()));
         }
     }

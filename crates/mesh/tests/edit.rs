@@ -4,21 +4,8 @@ mod common;
 
 use common::*;
 use pellicle_geometry::{DVec3, VertexId};
-use pellicle_mesh::{HalfEdgeId, MeshEditor, Refusal, TriMesh, TriangleSoup, icosphere, summarize};
+use pellicle_mesh::{HalfEdgeId, MeshEditor, Refusal, TriMesh, TriangleSoup, icosphere};
 use proptest::prelude::*;
-
-/// What an edit may not change.
-fn topology(mesh: &TriMesh) -> (usize, Option<usize>, usize, i64) {
-    let s = summarize(mesh.into()).unwrap();
-    let sum = |of: fn(&pellicle_mesh::Component) -> i64| s.components.iter().map(of).sum::<i64>();
-    let loops = sum(|c| c.border_loops as i64) as usize;
-    (
-        s.components.len(),
-        s.genus(),
-        loops,
-        sum(|c| c.euler_characteristic()),
-    )
-}
 
 /// The mesh of an editor; its stored connectivity must be what the triangles alone say.
 fn finished(editor: &MeshEditor) -> TriMesh {

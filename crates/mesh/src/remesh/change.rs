@@ -81,8 +81,9 @@ impl State {
         self.lengths
             .push(0.5 * self.lengths[a.index()] + 0.5 * self.lengths[b.index()]);
         self.report.splits += 1;
+        let reach = 0.5 * self.editor.at(a).distance(self.editor.at(b));
         if kind != Kind::Free
-            && let Some(foot) = self.curves.closest(middle, kind == Kind::Border)
+            && let Some((foot, _)) = self.on_curve(m, middle, reach)
             && self.editor.may_move(m, foot, &[])
         {
             self.editor.positions[m.index()] = foot;
@@ -130,9 +131,8 @@ impl State {
         let both_alike = self.kind(a) == self.kind(b);
         let middle = match self.kind(b) {
             Kind::Border | Kind::Crease if both_alike => self
-                .curves
-                .closest(middle, self.kind(b) == Kind::Border)
-                .unwrap_or(at_b),
+                .on_curve(b, middle, 0.5 * at_a.distance(at_b))
+                .map_or(at_b, |(foot, _)| foot),
             _ => middle,
         };
         let candidates: &[DVec3] = match both_alike {

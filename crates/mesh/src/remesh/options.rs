@@ -69,8 +69,9 @@ pub struct RemeshOptions {
     pub iterations: u32,
     /// Whether vertices are projected onto the surface given. Default [`Projection::Surface`].
     pub projection: Projection,
-    /// Edges across which normals turn by more than this angle, in radians, are creases and stay. Default 60°: the
-    /// edges of machine parts, and few others. `None` has no creases: right for smooth surfaces.
+    /// Edges across which normals turn by more than this angle, in radians, are creases and stay. Default `None`: no
+    /// creases, right for scans and for surfaces that move. 60° finds the edges of machine parts; on rough surfaces it
+    /// finds dents as well, and triangles there stay as bad as they are.
     pub crease_angle: Option<f64>,
     /// Vertices of borders and creases at which the curve turns by more than this angle, in radians, are corners and
     /// stay. Default 60°.
@@ -83,7 +84,7 @@ impl Default for RemeshOptions {
             target: TargetLength::Relative(1.0),
             iterations: 6,
             projection: Projection::Surface,
-            crease_angle: Some(60.0_f64.to_radians()),
+            crease_angle: None,
             corner_angle: 60.0_f64.to_radians(),
         }
     }
@@ -148,7 +149,7 @@ pub struct ImproveOptions {
     pub iterations: u32,
     /// As [`RemeshOptions::projection`]. Default [`Projection::Surface`].
     pub projection: Projection,
-    /// As [`RemeshOptions::crease_angle`]. Default 60°.
+    /// As [`RemeshOptions::crease_angle`]. Default `None`.
     pub crease_angle: Option<f64>,
     /// As [`RemeshOptions::corner_angle`]. Default 60°.
     pub corner_angle: f64,

@@ -1,7 +1,7 @@
 //! Mending the worst triangles one by one.
 
 use super::geometry::score;
-use super::{Kind, State, curve_neighbors};
+use super::{Kind, State};
 use crate::{HalfEdgeId, TriangleId};
 use pellicle_geometry::{DVec3, VertexId};
 
@@ -120,12 +120,12 @@ impl State {
                 }
             }
             Kind::Border | Kind::Crease => {
-                let Some(neighbors) = curve_neighbors(&self.editor, v) else {
+                let Some(neighbors) = self.curve_around(v) else {
                     return false;
                 };
                 for step in STEPS {
-                    for n in neighbors {
-                        try_place(from + (self.editor.at(n) - from) * step);
+                    for at in neighbors {
+                        try_place(from + (at - from) * step);
                     }
                 }
             }
@@ -150,8 +150,8 @@ impl State {
         match self.kind(v) {
             Kind::Free => self.on_surface(v, place, self.editor.vertex_normal(v)),
             Kind::Border | Kind::Crease => {
-                let foot = self.curves.closest(place, self.kind(v) == Kind::Border)?;
-                Some((foot, self.lengths[v.index()]))
+                let [a, b] = self.curve_around(v)?;
+                self.on_curve(v, place, 0.5 * a.distance(b))
             }
             Kind::Corner => None,
         }

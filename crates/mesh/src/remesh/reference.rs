@@ -30,23 +30,21 @@ impl Surface {
         }
     }
 
-    /// The nearest point among the triangles that face as `normal` does, so that a vertex on one side of a thin
-    /// wall does not jump to the other; among all if none does. With the edge length wanted there.
-    pub(super) fn closest(&self, point: DVec3, normal: DVec3) -> Option<(DVec3, f64)> {
+    /// The nearest point, with the edge length wanted there.
+    ///
+    /// A triangle that does not face as `normal` does counts as twice `length` away at right angles, so that a vertex
+    /// on one side of a thin wall does not jump to the other.
+    pub(super) fn closest(&self, point: DVec3, normal: DVec3, length: f64) -> Option<(DVec3, f64)> {
         let corners = |t: u32| self.triangles[t as usize].map(|v| self.positions[v.index()]);
-        let distance = |t: u32| {
+        let penalty = 4.0 * length * length;
+        let (t, _) = self.bvh.nearest(point, |t| {
             let [a, b, c] = corners(t);
-            point.distance_squared(triangle::closest_point(point, a, b, c))
-        };
-        let facing = |t: u32| match self.normals[t as usize].dot(normal) > 0.0 {
-            true => distance(t),
-            false => f64::INFINITY,
-        };
-        let (t, _) = self
-            .bvh
-            .nearest(point, facing)
-            .filter(|&(_, d)| d < f64::INFINITY)
-            .or_else(|| self.bvh.nearest(point, distance))?;
+            let square = point.distance_squared(triangle::closest_point(point, a, b, c));
+            match self.normals[t as usize].dot(normal) > 0.0 {
+                true => square,
+                false => square + penalty,
+            }
+        })?;
         let [a, b, c] = corners(t);
         let foot = triangle::closest_point(point, a, b, c);
         Some((foot, self.length_at(t, foot)))

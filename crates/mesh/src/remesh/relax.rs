@@ -1,5 +1,6 @@
 //! Moving vertices along the surface.
 
+use super::geometry::cosine;
 use super::{Kind, State, curve_neighbors};
 use pellicle_geometry::triangle::double_area_normal;
 use pellicle_geometry::{DVec3, VertexId};
@@ -47,20 +48,33 @@ impl State {
                 self.on_surface(v, from + move_by - normal * normal.dot(move_by), normal)
             }
             Kind::Border | Kind::Crease => {
-                let [a, b] = curve_neighbors(&self.editor, v)?;
-                let middle = self.editor.at(a) * 0.5 + self.editor.at(b) * 0.5;
-                let foot = self.curves.closest(middle, self.kind(v) == Kind::Border)?;
-                Some((foot, self.lengths[v.index()]))
+                let [a, b] = self.curve_around(v)?;
+                self.on_curve(v, a * 0.5 + b * 0.5, 0.5 * a.distance(b))
             }
             Kind::Corner => None,
         }
     }
 
+    /// The places of the two neighbours along the curve of a vertex; `None` where the curve now turns by more than 60°:
+    /// the middle of the neighbours may then be nearer to another part of it.
+    pub(super) fn curve_around(&self, v: VertexId) -> Option<[DVec3; 2]> {
+        let [a, b] = curve_neighbors(&self.editor, v)?.map(|n| self.editor.at(n));
+        let p = self.editor.at(v);
+        (cosine(p - a, b - p) >= 0.5).then_some([a, b])
+    }
+
+    /// The point of the curve of a vertex nearest to a place, unless that is most of `reach` away: another curve then.
+    pub(super) fn on_curve(&self, v: VertexId, place: DVec3, reach: f64) -> Option<Place> {
+        let foot = self.curves.closest(place, self.kind(v) == Kind::Border)?;
+        (foot.distance(place) <= 0.6 * reach).then_some((foot, self.lengths[v.index()]))
+    }
+
     /// A place near a free vertex, projected if vertices are.
     pub(super) fn on_surface(&self, v: VertexId, place: DVec3, normal: DVec3) -> Option<Place> {
+        let length = self.lengths[v.index()];
         match &self.surface {
-            Some(surface) => surface.closest(place, normal),
-            None => Some((place, self.lengths[v.index()])),
+            Some(surface) => surface.closest(place, normal, length),
+            None => Some((place, length)),
         }
     }
 

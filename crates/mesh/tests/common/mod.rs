@@ -150,3 +150,38 @@ pub fn moved(mut soup: TriangleSoup, by: DVec3) -> TriangleSoup {
     soup.positions.iter_mut().for_each(|p| *p += by);
     soup
 }
+
+/// A fixture in OFF.
+pub fn off(name: &str) -> TriangleSoup {
+    let path = format!("{}/../../fixtures/{name}.off", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).expect("a fixture");
+    let lines = text.lines().map(|l| l.split('#').next().unwrap_or(""));
+    let mut words = lines.flat_map(str::split_whitespace).skip(1);
+    let mut number = || {
+        words
+            .next()
+            .expect("a number")
+            .parse::<f64>()
+            .expect("a number")
+    };
+    let (vertices, faces, _) = (number() as usize, number() as usize, number());
+    let positions = (0..vertices)
+        .map(|_| DVec3::new(number(), number(), number()))
+        .collect();
+    let triangles: Vec<[u32; 3]> = (0..faces)
+        .map(|_| {
+            assert_eq!(number(), 3.0);
+            [number() as u32, number() as u32, number() as u32]
+        })
+        .collect();
+    soup(positions, &triangles)
+}
+
+/// What no edit and no remeshing may change: components, genus, border loops, χ.
+pub fn topology(mesh: &TriMesh) -> (usize, Option<usize>, usize, i64) {
+    let s = pellicle_mesh::summarize(mesh.into()).unwrap();
+    let sum = |of: fn(&pellicle_mesh::Component) -> i64| s.components.iter().map(of).sum::<i64>();
+    let loops = sum(|c| c.border_loops as i64) as usize;
+    let characteristic = sum(|c| c.euler_characteristic());
+    (s.components.len(), s.genus(), loops, characteristic)
+}
