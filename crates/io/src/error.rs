@@ -173,6 +173,14 @@ pub enum Error {
         /// How many there must be.
         expected: u64,
     },
+    /// A frame's time is not a positive number, or so short or long that single precision cannot tell the frames apart.
+    #[error("{}: not written: {seconds} seconds a frame; take a time such as 0.1", .path.display())]
+    FrameSeconds {
+        /// The file.
+        path: PathBuf,
+        /// The time that was asked for.
+        seconds: f64,
+    },
     /// The observer asked to stop; nothing was written.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

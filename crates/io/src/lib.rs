@@ -44,6 +44,7 @@ mod write;
 
 pub use error::{Content, Error, Location};
 pub use format::Format;
+pub use gltf::{AnimationOptions, AnimationWriter, Frame, write_animation};
 pub use read::{
     Data, Read, ReadMesh, ReadOptions, ReadPoints, read, read_from, read_mesh, read_points,
 };

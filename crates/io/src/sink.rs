@@ -71,6 +71,21 @@ impl<'a> Sink<'a> {
         Ok(())
     }
 
+    /// How many items there will be, where that is not known at the start.
+    pub fn expect(&mut self, total: u64) {
+        self.total = total;
+    }
+
+    /// A nameless file beside this one, for what cannot be put in its order; where a device is written, among the
+    /// temporary files of the machine.
+    pub fn scratch(&self) -> Result<File, Error> {
+        let file = match self.out.get_ref() {
+            Target::Temporary(_, place) => tempfile::tempfile_in(directory(place)),
+            Target::Device(_) => tempfile::tempfile(),
+        };
+        file.map_err(|e| create_error(self.path, e.kind().into()))
+    }
+
     /// Writes, with the file named in the error.
     pub fn put(&mut self, bytes: &[u8]) -> Result<(), Error> {
         self.out
@@ -152,10 +167,7 @@ fn open(path: &Path, overwrite: Overwrite) -> Result<Target, Error> {
         Some(_) => fs::canonicalize(path).map_err(|e| create_error(path, e))?,
         None => path.to_owned(),
     };
-    let directory = match place.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+    let directory = directory(&place);
     let mut builder = tempfile::Builder::new();
     builder.prefix(".pellicle-").suffix(".part");
     let permissions = existing.map(|metadata| metadata.permissions());
@@ -185,6 +197,13 @@ fn open(path: &Path, overwrite: Overwrite) -> Result<Target, Error> {
             };
             create_error(path, e)
         })
+}
+
+fn directory(place: &Path) -> &Path {
+    match place.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
 }
 
 fn create_error(path: &Path, source: io::Error) -> Error {

@@ -2,7 +2,7 @@
 
 use crate::sink::Sink;
 use crate::{Content, Error, Format, Note, WriteReport, gltf, obj, off, pcd, ply, stl, table};
-use pellicle_geometry::{DVec3, PointCloud, Progress, first_not_finite};
+use pellicle_geometry::{Aabb, DVec3, PointCloud, Progress, first_not_finite};
 use pellicle_mesh::MeshView;
 use std::path::Path;
 
@@ -137,7 +137,7 @@ fn write(
 }
 
 /// Everything that a writer relies on.
-fn check(path: &Path, mesh: MeshView, normals: Option<&[DVec3]>) -> Result<(), Error> {
+pub(crate) fn check(path: &Path, mesh: MeshView, normals: Option<&[DVec3]>) -> Result<(), Error> {
     let vertices = mesh.positions.len();
     let too_many = |count: usize, what| Error::TooMany {
         path: path.to_owned(),
@@ -238,27 +238,14 @@ impl Rounded {
         if positions.iter().all(exact) {
             return Some(Self { shift: DVec3::ZERO });
         }
-        let bounds = pellicle_geometry::Aabb::of_points(positions);
-        let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
-        let far = farthest > FAR * bounds.extent().max_element();
+        let far = Self::far_shift(Aabb::of_points(positions));
         let rounded = Self {
-            shift: match far {
-                true => bounds.center().as_vec3().as_dvec3(),
-                false => DVec3::ZERO,
-            },
+            shift: far.unwrap_or_default(),
         };
-        let mut error: f64 = 0.0;
-        for &p in positions {
-            let local = rounded.local(p);
-            if !local.is_finite() || !rounded.shift.is_finite() {
-                return None;
-            }
-            let restored = local.as_dvec3() + rounded.shift;
-            error = error.max((restored - p).abs().max_element());
-        }
-        if far {
+        let error = rounded.error(positions)?;
+        if let Some(shift) = far {
             notes.push(Note::Shifted {
-                shift: rounded.shift,
+                shift,
                 restored_by_file,
             });
         }
@@ -266,6 +253,28 @@ impl Rounded {
             notes.push(Note::Rounded { error });
         }
         Some(rounded)
+    }
+
+    /// What to subtract from positions in this box, if they are far from the origin for their extent.
+    pub fn far_shift(bounds: Aabb) -> Option<DVec3> {
+        let farthest = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let far = farthest > FAR * bounds.extent().max_element();
+        far.then(|| bounds.center().as_vec3().as_dvec3())
+    }
+
+    /// The largest distance along an axis between a position and what is read back; `None` if single precision
+    /// cannot hold the positions at all.
+    pub fn error(&self, positions: &[DVec3]) -> Option<f64> {
+        let mut error: f64 = 0.0;
+        for &p in positions {
+            let local = self.local(p);
+            if !local.is_finite() || !self.shift.is_finite() {
+                return None;
+            }
+            let restored = local.as_dvec3() + self.shift;
+            error = error.max((restored - p).abs().max_element());
+        }
+        Some(error)
     }
 
     /// One position, shifted and rounded.

@@ -4,10 +4,11 @@
 
 use pellicle_geometry::{DVec3, PointCloud, VertexId};
 use pellicle_io::{
-    Data, Encoding, Format, ReadOptions, WriteOptions, read, write_mesh, write_points,
+    AnimationOptions, AnimationWriter, Data, Encoding, Format, Frame, ReadOptions, WriteOptions,
+    read, write_mesh, write_points,
 };
 use pellicle_mesh::TriangleSoup;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// Names the file to read, in the process that is measured.
@@ -45,10 +46,54 @@ fn measured_process() {
     println!("ratio {:.3}", peak as f64 / held as f64);
 }
 
+/// Names the animation to write, in the process that is measured.
+const ANIMATION: &str = "PELLICLE_TEST_MEMORY_ANIMATION";
+
+/// Not a test of its own: what the measured process does.
+#[test]
+fn measured_animation() {
+    let Some(path) = std::env::var_os(ANIMATION).map(PathBuf::from) else {
+        return;
+    };
+    let soup = torus(400, 250);
+    let frame = Frame {
+        mesh: (&soup).into(),
+        normals: None,
+    };
+    let before = status("VmSize");
+    let (animation, options) = (AnimationOptions::default(), WriteOptions::default());
+    let mut writer = AnimationWriter::create(&path, &animation, &options).unwrap();
+    for _ in 0..FRAMES {
+        writer.push(frame).unwrap();
+    }
+    let written = writer.finish().unwrap().bytes;
+    let peak = status("VmPeak") - before;
+    println!("ratio {:.4}", peak as f64 / written as f64);
+}
+
+const FRAMES: usize = 40;
+
+/// An animation takes the memory of its buffers, whatever the number of its frames.
+#[test]
+fn peak_of_animations() {
+    let place = tempfile::tempdir().unwrap();
+    let path = place.path().join("a.glb");
+    let ratio = measure("measured_animation", ANIMATION, &path);
+    let written = std::fs::metadata(&path).unwrap().len();
+    assert!(written > FRAMES as u64 * 3_000_000, "{written}");
+    // Two buffers of 256 KiB and a block of 1 MiB, where a frame is 3.6 MB.
+    let peak = ratio * written as f64;
+    assert!(peak > 1e6 && peak < 3e6, "{peak}");
+}
+
 fn ratio(path: &Path) -> f64 {
+    measure("measured_process", FILE, path)
+}
+
+fn measure(test: &str, variable: &str, path: &Path) -> f64 {
     let output = Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "measured_process", "--nocapture"])
-        .env(FILE, path)
+        .args(["--exact", test, "--nocapture"])
+        .env(variable, path)
         // One heap: that of a further thread takes 64 MiB of address space at once.
         .env("MALLOC_ARENA_MAX", "1")
         .output()
@@ -107,11 +152,8 @@ fn peak_of_points() {
     }
 }
 
-#[test]
-fn peak_of_meshes() {
-    let place = tempfile::tempdir().unwrap();
-    // A torus: twice as many triangles as vertices.
-    let (m, n) = (800u32, 500u32);
+/// A torus: twice as many triangles as vertices.
+fn torus(m: u32, n: u32) -> TriangleSoup {
     let id = |i: u32, j: u32| VertexId((i % m) * n + j % n);
     let angle = |k: u32, of: u32| std::f64::consts::TAU * f64::from(k) / f64::from(of);
     let mut soup = TriangleSoup::default();
@@ -126,6 +168,13 @@ fn peak_of_meshes() {
                 .push([id(i, j), id(i + 1, j + 1), id(i, j + 1)]);
         }
     }
+    soup
+}
+
+#[test]
+fn peak_of_meshes() {
+    let place = tempfile::tempdir().unwrap();
+    let soup = torus(800, 500);
     // STL keeps a table to find equal corners; GLB is held while it is read.
     for (format, most) in [
         (Format::Ply, 1.2),

@@ -21,6 +21,8 @@ pub(super) struct Document {
     pub buffer_views: Vec<BufferView>,
     #[serde(default)]
     pub buffers: Vec<Buffer>,
+    #[serde(default)]
+    pub animations: Vec<serde::de::IgnoredAny>,
 }
 
 #[derive(Debug, Deserialize)]

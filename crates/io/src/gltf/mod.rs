@@ -5,10 +5,13 @@
 //! while the mesh is made.
 
 mod accessor;
+mod animate;
 mod buffers;
 mod document;
+mod encode;
 mod read;
 mod write;
 
+pub use animate::{AnimationOptions, AnimationWriter, Frame, write_animation};
 pub(crate) use read::read;
 pub(crate) use write::write;

@@ -131,6 +131,7 @@ struct Placed {
     /// Whether every primitive so far had normals.
     normals: bool,
     transformed: u64,
+    hidden: u64,
     lines: u64,
     without_positions: u64,
     corners: u64,
@@ -146,6 +147,7 @@ impl Scene<'_, '_, '_> {
             contents: Contents::new(keep),
             normals: true,
             transformed: 0,
+            hidden: 0,
             lines: 0,
             without_positions: 0,
             corners: 0,
@@ -166,6 +168,9 @@ impl Scene<'_, '_, '_> {
                 nodes: placed.transformed,
             });
         }
+        contents.ignored("hidden nodes", placed.hidden);
+        let animations = self.document.animations.len();
+        contents.ignored("animations", animations as u64);
         contents.ignored("primitives of lines", placed.lines);
         contents.ignored("primitives without positions", placed.without_positions);
         Ok(contents)
@@ -200,11 +205,15 @@ impl Scene<'_, '_, '_> {
                 return Err(self.wrong(format!("node {id} has two parents or is its own")));
             }
             let matrix = local_matrix(node);
-            placed.transformed +=
-                u64::from(node.mesh.is_some() && parent * matrix != DMat4::IDENTITY);
             let matrix = parent * matrix;
-            if let Some(mesh) = node.mesh {
-                self.mesh(mesh, &matrix, placed)?;
+            match node.mesh {
+                None => {}
+                // A scale of zero on all axes is how the format hides a node, as in the frames of an animation.
+                Some(_) if DMat3::from_mat4(matrix) == DMat3::ZERO => placed.hidden += 1,
+                Some(mesh) => {
+                    placed.transformed += u64::from(matrix != DMat4::IDENTITY);
+                    self.mesh(mesh, &matrix, placed)?;
+                }
             }
             stack.extend(node.children.iter().rev().map(|&child| (child, matrix)));
         }
