@@ -1,7 +1,7 @@
 //! A point cloud as a scene.
 
 use crate::camera::{Camera, Projected, unit};
-use crate::frame::Frame;
+use crate::frame::{Fitted, Frame};
 use crate::samples::Samples;
 use crate::shade::{Color, linear, lit};
 use crate::sheet::{Scene, View};
@@ -24,6 +24,7 @@ pub struct CloudScene {
     /// Of length one, or zero where there is none; empty where no point has one.
     normals: Vec<DVec3>,
     radius: f64,
+    fitted: Fitted,
     front: Color,
     back: Color,
     ball: Color,
@@ -52,7 +53,7 @@ pub fn check(points: &[DVec3], normals: Option<&[DVec3]>) -> Result<(), Error> {
 impl CloudScene {
     /// The scene of a cloud that [`check`] passed.
     pub fn new(points: &[DVec3], normals: Option<&[DVec3]>, options: &Options) -> Self {
-        let frame = Frame::of(points.iter().copied());
+        let (frame, fitted) = Frame::with_bounds(points.iter().copied(), options.bounds);
         let positions: Vec<DVec3> = points.iter().map(|&p| frame.place(p)).collect();
         let normals = normals
             .unwrap_or_default()
@@ -68,6 +69,7 @@ impl CloudScene {
             normals,
             // A radius that is not a positive number draws the smallest discs.
             radius: radius.clamp(0.0, 1.0).max(0.0),
+            fitted,
             front: linear(options.palette.front),
             back: linear(options.palette.back),
             ball: linear(options.palette.point),
@@ -90,6 +92,9 @@ impl CloudScene {
 
 impl Scene for CloudScene {
     fn project(&self, camera: &Camera, visit: &mut dyn FnMut(Projected)) {
+        if !self.fitted.project(camera, visit) {
+            return;
+        }
         for &position in &self.positions {
             visit(camera.project(position));
         }

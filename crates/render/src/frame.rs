@@ -1,6 +1,26 @@
-//! From the data's coordinates to the unit ball.
+//! From the data's coordinates to the unit ball, and what the picture must fit.
 
+use crate::camera::{Camera, Projected};
 use pellicle_geometry::{Aabb, DVec3};
+
+/// What a picture must fit, in the unit ball.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// The corners of a box that was asked for.
+    corners: Vec<DVec3>,
+    /// Whether what is drawn must fit as well: not where it lies in the box.
+    drawn_too: bool,
+}
+
+impl Fitted {
+    /// Visits the corners; returns whether what is drawn is to be visited too.
+    pub fn project(&self, camera: &Camera, visit: &mut dyn FnMut(Projected)) -> bool {
+        for &corner in &self.corners {
+            visit(camera.project(corner));
+        }
+        self.drawn_too
+    }
+}
 
 /// A shift and a scale that bring points into the unit ball around the middle of their box.
 #[derive(Clone, Copy, Debug)]
@@ -37,6 +57,33 @@ impl Frame {
         frame
     }
 
+    /// The frame of some finite points and a box, and what their picture must fit.
+    ///
+    /// All points that lie in the box have one and the same frame: that of its corners.
+    pub fn with_bounds(
+        points: impl Iterator<Item = DVec3> + Clone,
+        bounds: Option<Aabb>,
+    ) -> (Self, Fitted) {
+        let Some(bounds) = bounds.filter(|bounds| !bounds.is_empty()) else {
+            let fitted = Fitted {
+                corners: Vec::new(),
+                drawn_too: true,
+            };
+            return (Self::of(points), fitted);
+        };
+        let corners = corners(bounds);
+        let inside = points.clone().all(|p| bounds.with(p) == bounds);
+        let frame = match inside {
+            true => Self::of(corners.into_iter()),
+            false => Self::of(points.chain(corners)),
+        };
+        let fitted = Fitted {
+            corners: corners.map(|corner| frame.place(corner)).to_vec(),
+            drawn_too: !inside,
+        };
+        (frame, fitted)
+    }
+
     /// The point inside the unit ball.
     pub fn place(&self, point: DVec3) -> DVec3 {
         if self.half_extent > 0.0 {
@@ -54,6 +101,14 @@ impl Frame {
             length
         }
     }
+}
+
+fn corners(bounds: Aabb) -> [DVec3; 8] {
+    let pick = |bit: usize, axis: usize| match bit & 1 {
+        0 => bounds.min[axis],
+        _ => bounds.max[axis],
+    };
+    std::array::from_fn(|i| DVec3::new(pick(i, 0), pick(i >> 1, 1), pick(i >> 2, 2)))
 }
 
 #[cfg(test)]

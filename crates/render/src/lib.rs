@@ -34,10 +34,12 @@ mod options;
 mod samples;
 mod shade;
 mod sheet;
+mod strip;
 
 pub use options::{Options, Palette, Projection, Shading, Up, View};
+pub use strip::strip;
 
-use pellicle_geometry::{DVec3, VertexId};
+use pellicle_geometry::{Aabb, DVec3, VertexId};
 use pellicle_mesh::MeshView;
 
 /// A picture: red, green, blue and opacity of each pixel, in sRGB, rows from the top.
@@ -87,6 +89,41 @@ pub enum Error {
         /// How many.
         count: usize,
     },
+    /// The box of the options has a coordinate that is not finite.
+    #[error("the box to be fitted is not finite: from {min} to {max}")]
+    BoundsNotFinite {
+        /// Its least corner.
+        min: DVec3,
+        /// Its greatest corner.
+        max: DVec3,
+    },
+    /// A strip of no image, or of empty ones.
+    #[error("there is no image to put into a strip")]
+    NoImage,
+    /// An image of a strip has another size than the first, or not as many pixels as its size says.
+    #[error("image {image} of the strip is {width} × {height} with {pixels} pixels; the first is {} × {}", .first.0, .first.1)]
+    UnequalImages {
+        /// Which image; the first is 0.
+        image: usize,
+        /// Its pixels in a row.
+        width: u32,
+        /// Its rows.
+        height: u32,
+        /// Its pixels.
+        pixels: usize,
+        /// Width and height of the first image.
+        first: (u32, u32),
+    },
+    /// A strip has more pixels in a row, or more rows, than a `u32` counts.
+    #[error("{columns} columns and {rows} rows of images of {} × {} are too large a picture", .size.0, .size.1)]
+    StripSize {
+        /// Images in a row.
+        columns: usize,
+        /// Rows of images.
+        rows: usize,
+        /// Width and height of an image.
+        size: (u32, u32),
+    },
     /// The options ask for no view at all.
     #[error("the sheet has no view")]
     NoView,
@@ -115,6 +152,7 @@ pub enum Error {
 /// Time is linear in triangles plus samples covered, times views, but for one sort of the edges; memory is 12 bytes a
 /// vertex and 8 a sample of one view, 24 an edge while borders are sought.
 pub fn render_mesh(mesh: MeshView<'_>, options: &Options) -> Result<Image, Error> {
+    check_bounds(options)?;
     mesh::check(mesh)?;
     sheet::draw(&mesh::MeshScene::new(mesh, options), options)
 }
@@ -127,8 +165,21 @@ pub fn render_points(
     normals: Option<&[DVec3]>,
     options: &Options,
 ) -> Result<Image, Error> {
+    check_bounds(options)?;
     cloud::check(points, normals)?;
     sheet::draw(&cloud::CloudScene::new(points, normals, options), options)
+}
+
+/// An empty box asks for nothing.
+fn check_bounds(options: &Options) -> Result<(), Error> {
+    match options.bounds {
+        Some(Aabb { min, max })
+            if !(min.is_finite() && max.is_finite()) && options.bounds != Some(Aabb::EMPTY) =>
+        {
+            Err(Error::BoundsNotFinite { min, max })
+        }
+        _ => Ok(()),
+    }
 }
 
 #[cfg(doctest)]

@@ -1,7 +1,7 @@
 //! A mesh as a scene.
 
 use crate::camera::{Camera, Projected, unit};
-use crate::frame::Frame;
+use crate::frame::{Fitted, Frame};
 use crate::samples::{Samples, twice_area};
 use crate::shade::{Color, linear, lit};
 use crate::sheet::{Scene, View};
@@ -28,6 +28,7 @@ pub struct MeshScene<'a> {
     normals: Vec<DVec3>,
     /// The ends, and [`BORDER`] or [`NON_MANIFOLD`].
     marked: Vec<([VertexId; 2], u32)>,
+    fitted: Fitted,
     colors: Colors,
 }
 
@@ -71,7 +72,8 @@ impl<'a> MeshScene<'a> {
     pub fn new(mesh: MeshView<'a>, options: &Options) -> Self {
         // Vertices of no triangle have no say in what fits the sheet.
         let corners = mesh.triangles.iter().flatten();
-        let frame = Frame::of(corners.map(|vertex| mesh.positions[vertex.index()]));
+        let corners = corners.map(|vertex| mesh.positions[vertex.index()]);
+        let (frame, fitted) = Frame::with_bounds(corners, options.bounds);
         let positions: Vec<DVec3> = mesh.positions.iter().map(|&p| frame.place(p)).collect();
         let normals = match options.shading {
             Shading::Flat => Vec::new(),
@@ -83,6 +85,7 @@ impl<'a> MeshScene<'a> {
             triangles: mesh.triangles,
             normals,
             marked: marked_edges(mesh.triangles),
+            fitted,
             colors: Colors {
                 front: linear(palette.front),
                 back: linear(palette.back),
@@ -134,6 +137,9 @@ impl<'a> MeshScene<'a> {
 
 impl Scene for MeshScene<'_> {
     fn project(&self, camera: &Camera, visit: &mut dyn FnMut(Projected)) {
+        if !self.fitted.project(camera, visit) {
+            return;
+        }
         let mut used = vec![false; self.positions.len()];
         for vertex in self.triangles.iter().flatten() {
             if !std::mem::replace(&mut used[vertex.index()], true) {

@@ -1,6 +1,6 @@
 //! What the sheet shows, and how.
 
-use pellicle_geometry::DVec3;
+use pellicle_geometry::{Aabb, DVec3};
 
 /// Size, views and looks of a sheet.
 #[derive(Clone, Debug, PartialEq)]
@@ -11,6 +11,9 @@ pub struct Options {
     pub height: u32,
     /// The views, row by row from the top left; front, right, top and three-quarter.
     pub views: Vec<View>,
+    /// A box that each view fits, and what lies outside of it as well; none, so that what is drawn fits closely.
+    /// With the box of all frames of an animation they have one camera, and nothing jumps.
+    pub bounds: Option<Aabb>,
     /// Which axis of the data points up; y, as in most scans of objects.
     pub up: Up,
     /// Mild perspective by default.
@@ -33,6 +36,7 @@ impl Default for Options {
             width: 1600,
             height: 1200,
             views: vec![View::Front, View::Right, View::Top, View::ThreeQuarter],
+            bounds: None,
             up: Up::default(),
             projection: Projection::default(),
             shading: Shading::default(),
