@@ -4,7 +4,7 @@
 //! the residual half-way; ρ = r̂·r, α = ρ / (r̂·v), ω = (t·s) / (t·t), β = (ρ / ρ_old)(α / ω). M⁻¹ is the preconditioner.
 
 use super::columns::{update, update_two};
-use super::iterative::{System, is_finite, square_root, worst};
+use super::iterative::{Process, System, drive, is_finite, square_root};
 use super::{
     Columns, Convergence, CsrMatrix, IterativeOptions, LinearError, Preconditioner, Workspace,
 };
@@ -45,7 +45,7 @@ pub fn bicgstab<V: Columns, P: Preconditioner>(
     let system = System::new(matrix, right, solution, options)?;
     let [residual, shadow, direction, image, search, second_image] =
         workspace.vectors(matrix.rows());
-    let mut process = Process {
+    let mut process = BiCgStab {
         system: &system,
         preconditioner,
         residual,
@@ -57,36 +57,10 @@ pub fn bicgstab<V: Columns, P: Preconditioner>(
         scalars: Scalars::default(),
         iterations: 0,
     };
-    let mut before = V::from_columns(|_| f64::INFINITY);
-    loop {
-        let relative = system.residual(solution, process.residual);
-        if (0..V::COUNT).all(|column| system.is_met(relative.column(column))) {
-            return Ok(Convergence {
-                iterations: process.iterations,
-                residual: worst(relative),
-            });
-        }
-        // A recursion that claims success without halving the truth will claim it for ever.
-        let falls = |column| {
-            let (now, before) = (relative.column(column), before.column(column));
-            system.is_met(now) || now <= 0.5 * before
-        };
-        let may_go_on = is_finite(relative)
-            && (0..V::COUNT).all(falls)
-            && process.iterations < options.max_iterations;
-        if !may_go_on {
-            return Err(system.not_converged(relative, process.iterations));
-        }
-        process.start(relative);
-        if !process.run(solution) {
-            let not_finite = V::from_columns(|_| f64::NAN);
-            return Err(system.not_converged(not_finite, process.iterations));
-        }
-        before = relative;
-    }
+    drive(&system, solution, &mut process)
 }
 
-struct Process<'a, V, P> {
+struct BiCgStab<'a, V, P> {
     system: &'a System<'a, V>,
     preconditioner: &'a mut P,
     /// r, and s.
@@ -120,8 +94,16 @@ struct Scalars<V> {
     restarts: [u64; 3],
 }
 
-impl<V: Columns, P: Preconditioner> Process<'_, V, P> {
-    /// Starts at the residual, whose relative norms these are: r̂ = p = r.
+impl<V: Columns, P: Preconditioner> Process<V> for BiCgStab<'_, V, P> {
+    fn residual(&mut self) -> &mut [V] {
+        self.residual
+    }
+
+    fn iterations(&self) -> usize {
+        self.iterations
+    }
+
+    /// r̂ = p = r.
     fn start(&mut self, relative: V) {
         self.shadow.copy_from_slice(self.residual);
         self.direction.copy_from_slice(self.residual);
@@ -140,7 +122,6 @@ impl<V: Columns, P: Preconditioner> Process<'_, V, P> {
         }
     }
 
-    /// Iterates until every column is done or the limit is reached; `false` where a value is not finite.
     fn run(&mut self, solution: &mut [V]) -> bool {
         while self.iterations < self.system.options.max_iterations
             && !self.scalars.done[..V::COUNT].iter().all(|&done| done)
@@ -154,7 +135,9 @@ impl<V: Columns, P: Preconditioner> Process<'_, V, P> {
         }
         true
     }
+}
 
+impl<V: Columns, P: Preconditioner> BiCgStab<'_, V, P> {
     /// x += α M⁻¹ p, s = r − α v. Returns s·s, or `None` where a value is not finite.
     fn biconjugate_step(&mut self, solution: &mut [V]) -> Option<V> {
         self.preconditioner.apply(self.direction, self.search);

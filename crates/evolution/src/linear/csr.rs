@@ -220,6 +220,10 @@ impl CsrMatrix {
         Ok(())
     }
 
+    pub(super) fn has_pattern(&self, pattern: &Arc<CsrPattern>) -> bool {
+        Arc::ptr_eq(&self.pattern, pattern) || self.pattern == *pattern
+    }
+
     /// `product` = A `vector`, for each column of the vector. Same bits for any number of threads.
     ///
     /// # Errors

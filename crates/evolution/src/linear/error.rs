@@ -43,4 +43,11 @@ pub enum LinearError {
     /// More rows or entries than a `u32` counts.
     #[error("a matrix of {0} rows or entries is too large")]
     TooLarge(usize),
+    /// A symmetric matrix is not positive definite: nothing is pinned, the mesh has several components, or a triangle has
+    /// no area.
+    #[error("the matrix is not positive definite: no positive pivot in row {row}")]
+    NotPositiveDefinite {
+        /// The row.
+        row: usize,
+    },
 }

@@ -141,13 +141,61 @@ impl<'a, V: Columns> System<'a, V> {
         relative <= self.options.tolerance.max(f64::EPSILON)
     }
 
-    pub fn not_converged(&self, residual: V, iterations: usize) -> LinearError {
+    fn not_converged(&self, residual: V, iterations: usize) -> LinearError {
         let residual = worst(residual);
         NotConverged {
             residual,
             iterations,
         }
         .into()
+    }
+}
+
+/// A recursion that carries its own residual along.
+pub(super) trait Process<V> {
+    /// r, to be set before a start.
+    fn residual(&mut self) -> &mut [V];
+    /// Iterations done since the first start.
+    fn iterations(&self) -> usize;
+    /// Starts at the residual, whose relative norms these are.
+    fn start(&mut self, relative: V);
+    /// Iterates until the recursion has every column converged, can do no more, or is at the limit of iterations;
+    /// `false` where a value is not finite.
+    fn run(&mut self, solution: &mut [V]) -> bool;
+}
+
+/// Runs a process, and again from the true residual for as long as that falls, until it is small in each column.
+pub(super) fn drive<V: Columns>(
+    system: &System<V>,
+    solution: &mut [V],
+    process: &mut impl Process<V>,
+) -> Result<Convergence, LinearError> {
+    let mut before = V::from_columns(|_| f64::INFINITY);
+    loop {
+        let relative = system.residual(solution, process.residual());
+        if (0..V::COUNT).all(|column| system.is_met(relative.column(column))) {
+            return Ok(Convergence {
+                iterations: process.iterations(),
+                residual: worst(relative),
+            });
+        }
+        // A recursion that claims success without halving the truth will claim it for ever.
+        let falls = |column| {
+            let (now, before) = (relative.column(column), before.column(column));
+            system.is_met(now) || now <= 0.5 * before
+        };
+        let may_go_on = is_finite(relative)
+            && (0..V::COUNT).all(falls)
+            && process.iterations() < system.options.max_iterations;
+        if !may_go_on {
+            return Err(system.not_converged(relative, process.iterations()));
+        }
+        process.start(relative);
+        if !process.run(solution) {
+            let not_finite = V::from_columns(|_| f64::NAN);
+            return Err(system.not_converged(not_finite, process.iterations()));
+        }
+        before = relative;
     }
 }
 
@@ -162,7 +210,7 @@ pub(super) fn is_finite<V: Columns>(values: V) -> bool {
 }
 
 /// The largest column; NaN where any is.
-pub(super) fn worst<V: Columns>(values: V) -> f64 {
+fn worst<V: Columns>(values: V) -> f64 {
     let columns = (0..V::COUNT).map(|column| values.column(column));
     columns.fold(0.0, |worst, value| {
         if value > worst || value.is_nan() {

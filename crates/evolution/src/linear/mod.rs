@@ -9,7 +9,10 @@
 //!
 //! # Verbs
 //!
-//! - [`bicgstab`] solves any system, with a [`Preconditioner`]: [`NoPreconditioner`], [`Jacobi`].
+//! - [`bicgstab()`] solves any system, [`conjugate_gradient()`] a symmetric positive definite one; both take a
+//!   [`Preconditioner`]: [`NoPreconditioner`], [`Jacobi`], [`Ilu0`], or a [`Cholesky`] factor of a matrix that is near.
+//! - [`Cholesky`] solves a symmetric positive definite system at once.
+//! - [`LinearSolver`] does any of these for a [`Solver`] by name, and keeps what serves again at the next time step.
 //!
 //! Every result has the same bits for any number of threads: sums run over chunks of a fixed size in a fixed order.
 //! No multiplication is fused with an addition, so the bits are those of any machine with IEEE 754 arithmetic.
@@ -37,15 +40,23 @@
 //! ```
 
 mod bicgstab;
+mod cholesky;
 mod columns;
+mod conjugate_gradient;
 mod csr;
 mod error;
+mod ilu;
 mod iterative;
 mod preconditioner;
+mod solver;
 
 pub use bicgstab::bicgstab;
+pub use cholesky::Cholesky;
 pub use columns::Columns;
+pub use conjugate_gradient::conjugate_gradient;
 pub use csr::{CsrMatrix, CsrPattern};
 pub use error::{LinearError, NotConverged};
+pub use ilu::Ilu0;
 pub use iterative::{Convergence, IterativeOptions, Workspace};
 pub use preconditioner::{Jacobi, NoPreconditioner, Preconditioner};
+pub use solver::{LinearSolver, Preconditioning, Solver};

@@ -61,7 +61,7 @@ impl Preconditioner for Jacobi {
 }
 
 /// 1 / `value`, or one where that is not finite.
-fn inverse_or_one(value: f64) -> f64 {
+pub(super) fn inverse_or_one(value: f64) -> f64 {
     let inverse = value.recip();
     if inverse.is_finite() { inverse } else { 1.0 }
 }

@@ -4,10 +4,9 @@ use glam::DVec3;
 use nalgebra::{DMatrix, DVector};
 use pellicle_evolution::linear::{CsrMatrix, CsrPattern};
 use proptest::prelude::*;
-use std::collections::HashMap;
 use std::sync::Arc;
 
-/// A closed triangulated surface: an icosahedron subdivided onto the unit sphere.
+/// A closed triangulated surface.
 #[derive(Clone, Debug)]
 pub struct Surface {
     pub positions: Vec<DVec3>,
@@ -15,69 +14,13 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// 12, 42, 162, 642, 2562, 10 242, 40 962 vertices.
-    pub fn icosphere(subdivisions: usize) -> Self {
-        let golden = (1.0 + 5.0_f64.sqrt()) / 2.0;
-        let mut positions = Vec::new();
-        for (a, b) in [
-            (1.0, golden),
-            (-1.0, golden),
-            (1.0, -golden),
-            (-1.0, -golden),
-        ] {
-            positions.extend([
-                DVec3::new(0.0, a, b),
-                DVec3::new(a, b, 0.0),
-                DVec3::new(b, 0.0, a),
-            ]);
-        }
-        // Faces are the triples at mutual distance 2, turned outwards.
-        let mut triangles = Vec::new();
-        let near = |a: DVec3, b: DVec3| (a.distance(b) - 2.0).abs() < 1e-9;
-        for i in 0..12 {
-            for j in i + 1..12 {
-                for k in j + 1..12 {
-                    let [a, b, c] = [i, j, k].map(|v| positions[v]);
-                    if near(a, b) && near(b, c) && near(c, a) {
-                        let outward = a.dot(b.cross(c)) > 0.0;
-                        triangles.push(if outward { [i, j, k] } else { [i, k, j] });
-                    }
-                }
-            }
-        }
-        let mut surface = Self {
-            positions,
-            triangles,
-        };
-        for _ in 0..subdivisions {
-            surface = surface.subdivided();
-        }
-        for position in &mut surface.positions {
-            *position = position.normalize();
-        }
-        surface
-    }
-
-    fn subdivided(self) -> Self {
-        let Self {
-            mut positions,
-            triangles,
-        } = self;
-        let mut middles = HashMap::new();
-        let mut middle = |a: usize, b: usize| {
-            *middles.entry((a.min(b), a.max(b))).or_insert_with(|| {
-                positions.push((positions[a].normalize() + positions[b].normalize()).normalize());
-                positions.len() - 1
-            })
-        };
-        let mut finer = Vec::new();
-        for [a, b, c] in triangles {
-            let [ab, bc, ca] = [middle(a, b), middle(b, c), middle(c, a)];
-            finer.extend([[a, ab, ca], [b, bc, ab], [c, ca, bc], [ab, bc, ca]]);
-        }
+    /// A subdivided icosahedron: 12, 42, 162, 642, 2562, 10 242, 40 962 vertices.
+    pub fn icosphere(subdivisions: u32) -> Self {
+        let sphere = pellicle_mesh::icosphere(subdivisions).unwrap();
+        let triangles = sphere.triangles().iter();
         Self {
-            positions,
-            triangles: finer,
+            positions: sphere.positions().to_vec(),
+            triangles: triangles.map(|t| t.map(|v| v.index())).collect(),
         }
     }
 
@@ -261,8 +204,36 @@ pub fn m_matrix(largest: usize) -> impl Strategy<Value = DMatrix<f64>> {
 }
 
 pub fn distorted_icosphere() -> impl Strategy<Value = Surface> {
-    (0..3_usize, 0.0..0.25, 0.2..5.0, 0..1000_u64).prop_map(|(level, amount, stretch, seed)| {
+    (0..3_u32, 0.0..0.25, 0.2..5.0, 0..1000_u64).prop_map(|(level, amount, stretch, seed)| {
         let amount = amount / f64::from(1 << level);
         Surface::icosphere(level).distorted(amount, DVec3::new(stretch, 1.0, 1.0), seed)
     })
+}
+
+/// Symmetric, diagonally dominant with a positive diagonal, entries of either sign; often not connected.
+pub fn positive_definite(largest: usize) -> impl Strategy<Value = DMatrix<f64>> {
+    dominant(largest).prop_map(|matrix| {
+        let mut matrix = &matrix + matrix.transpose();
+        for row in 0..matrix.nrows() {
+            matrix[(row, row)] = 0.0;
+            let sum: f64 = matrix.row(row).iter().map(|value| value.abs()).sum();
+            matrix[(row, row)] = sum + 0.1;
+        }
+        matrix
+    })
+}
+
+/// The source of a redistribution: sums to zero.
+pub fn balanced(seed: u64, rows: usize) -> Vec<f64> {
+    let mut source = random_vector(seed, rows);
+    let mean = source.iter().sum::<f64>() / rows as f64;
+    source.iter_mut().for_each(|value| *value -= mean);
+    source
+}
+
+/// ‖A‖ ‖A⁻¹‖ in the norm of Frobenius.
+pub fn condition(matrix: &CsrMatrix) -> f64 {
+    let matrix = dense(matrix);
+    let inverse = matrix.clone().try_inverse().expect("not singular");
+    matrix.norm() * inverse.norm()
 }
