@@ -16,8 +16,8 @@ use glam::{DVec3, UVec3};
 
 /// Places and weights on one axis.
 #[derive(Clone, Copy)]
-struct Axis {
-    places: [usize; 4],
+pub(super) struct Axis {
+    pub places: [usize; 4],
     /// Of i and i + 1.
     value: [f64; 2],
     derivative: [f64; 4],
@@ -26,7 +26,7 @@ struct Axis {
 impl Axis {
     /// `position` within 0 ..= count − 1, `count` at least 2.
     #[inline]
-    fn new(position: f64, count: u32, stride: usize) -> Self {
+    pub fn new(position: f64, count: u32, stride: usize) -> Self {
         let i = (position as u32).min(count - 2);
         let t = position - f64::from(i);
         let (before, after) = (i.saturating_sub(1), (i + 2).min(count - 1));
@@ -53,7 +53,12 @@ pub(super) fn within(values: &[f32], dims: UVec3, position: DVec3) -> (f64, DVec
 
 /// Sums over the 32 values of the stencil: the cube of 8 about the point, and 4 beyond each of its faces.
 #[inline(always)]
-fn combine(at: impl Fn(usize, usize, usize) -> f64, x: &Axis, y: &Axis, z: &Axis) -> (f64, DVec3) {
+pub(super) fn combine(
+    at: impl Fn(usize, usize, usize) -> f64,
+    x: &Axis,
+    y: &Axis,
+    z: &Axis,
+) -> (f64, DVec3) {
     let mut value = 0.0;
     let mut gradient = DVec3::ZERO;
     for k in 0..2 {
@@ -104,9 +109,64 @@ pub(super) fn extended(
         return (f64::NAN, DVec3::NAN);
     }
     let (value, gradient) = field(inside);
+    // Scaled: the square of a finite distance may overflow.
     let offset = position - inside;
-    let distance = offset.length();
+    let scale = offset.abs().max_element();
+    let scaled = offset / scale;
+    let length = scaled.length();
     // Along the axes on which the point was moved the value at the nearest point does not change.
     let kept = DVec3::select(inside.cmpeq(position), gradient, DVec3::ZERO);
-    (value + distance, kept + offset / distance)
+    (value + length * scale, kept + scaled / length)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Trilinear functions are reproduced, and of linear ones the gradient, up to the faces.
+    #[test]
+    fn linear_functions_are_reproduced() {
+        let dims = UVec3::new(4, 5, 6);
+        let function = |p: DVec3| 3.0 + 2.0 * p.x - p.y + 0.5 * p.z;
+        let mut values = Vec::new();
+        for z in 0..6 {
+            for y in 0..5 {
+                for x in 0..4 {
+                    values.push(function(DVec3::new(x.into(), y.into(), z.into())) as f32);
+                }
+            }
+        }
+        for i in 0..1000_u32 {
+            let fractions =
+                DVec3::new((i % 10).into(), (i / 10 % 10).into(), (i / 100).into()) / 9.0;
+            let at = fractions * DVec3::new(3.0, 4.0, 5.0);
+            let (value, gradient) = within(&values, dims, at);
+            assert!((value - function(at)).abs() < 1e-12, "{at}: {value}");
+            assert!(
+                (gradient - DVec3::new(2.0, -1.0, 0.5)).length() < 1e-12,
+                "{at}: {gradient}"
+            );
+        }
+    }
+
+    /// (4.4) at a centre, by hand.
+    #[test]
+    fn at_a_centre_the_gradient_is_the_central_difference() {
+        let dims = UVec3::new(5, 5, 5);
+        let values: Vec<f32> = (0..125_u32).map(|i| (i * i % 31) as f32).collect();
+        let at = |x: usize, y: usize, z: usize| f64::from(values[x + 5 * (y + 5 * z)]);
+        for (x, y, z) in [(1, 1, 1), (2, 3, 1), (3, 2, 2), (3, 3, 3)] {
+            let (value, gradient) = within(&values, dims, DVec3::new(x as f64, y as f64, z as f64));
+            let by_hand = DVec3::new(
+                at(x + 1, y, z) - at(x - 1, y, z),
+                at(x, y + 1, z) - at(x, y - 1, z),
+                at(x, y, z + 1) - at(x, y, z - 1),
+            );
+            assert_eq!(value, at(x, y, z));
+            assert_eq!(gradient, by_hand / 2.0);
+        }
+        let (_, corner) = within(&values, dims, DVec3::ZERO);
+        let one_sided = DVec3::new(at(1, 0, 0), at(0, 1, 0), at(0, 0, 1)) - at(0, 0, 0);
+        assert_eq!(corner, one_sided);
+    }
 }

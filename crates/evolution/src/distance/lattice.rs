@@ -68,6 +68,16 @@ impl Lattice {
         }
     }
 
+    /// The lattice of voxels `factor` times as long whose centres enclose those of this one.
+    pub fn coarser(self, factor: u32) -> Self {
+        let spacing = self.spacing * f64::from(factor);
+        Self {
+            min: self.min - spacing,
+            spacing,
+            dims: (self.dims + factor - 1) / factor + 2,
+        }
+    }
+
     /// How many voxels; saturates.
     pub fn len(self) -> u64 {
         self.dims

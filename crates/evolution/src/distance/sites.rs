@@ -1,7 +1,7 @@
 //! The points in the order in which the grid meets them, whatever the order of the input.
 
 use super::lattice::Lattice;
-use glam::{DVec3, UVec3};
+use glam::{DVec3, IVec3, UVec3, Vec3};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 
@@ -53,6 +53,19 @@ impl Sites {
     /// The name of the site that is infinitely far.
     pub fn none(&self) -> u32 {
         self.exact.len() as u32
+    }
+
+    /// Rounded voxel coordinates.
+    #[inline]
+    pub fn position(&self, site: u32) -> Vec3 {
+        let [x, y, z, _] = self.rounded[site as usize];
+        Vec3::new(x, y, z)
+    }
+
+    /// The distance of a site from a voxel's centre, rounded once.
+    #[inline]
+    pub fn distance(&self, site: u32, voxel: IVec3) -> f32 {
+        (self.exact[site as usize] - voxel.as_dvec3()).length() as f32
     }
 
     /// The range of the sites whose voxels lie in the rows of one tile.

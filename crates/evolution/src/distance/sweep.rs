@@ -21,6 +21,8 @@ use glam::UVec3;
 use pellicle_geometry::{Cancelled, Progress};
 use pellicle_spatial::KdTree;
 use rayon::prelude::*;
+use std::array;
+use std::ops::Range;
 
 /// The closest site of each voxel and the square of its distance in voxels, of 8 × 8 rows.
 #[derive(Default)]
@@ -64,8 +66,7 @@ impl<'a> ClosestSites<'a> {
         let tile = &self.tiles[self.tile_at(y / TILE, z / TILE)];
         let row = self.row(y, z);
         for ((distance, &site), x) in target.iter_mut().zip(&tile.sites[row]).zip(0_u32..) {
-            let offset = self.sites.exact[site as usize] - UVec3::new(x, y, z).as_dvec3();
-            *distance = offset.length() as f32;
+            *distance = self.sites.distance(site, UVec3::new(x, y, z).as_ivec3());
         }
     }
 
@@ -84,9 +85,10 @@ impl<'a> ClosestSites<'a> {
         field.tiles = (0..tiles_y * tiles_z)
             .into_par_iter()
             .map(|place| {
-                let mut tile = field.seeded_tile(place % tiles_y, place / tiles_y);
+                let (tile_y, tile_z) = (place % tiles_y, place / tiles_y);
+                let mut tile = field.seeded_tile(tile_y, tile_z);
                 if let Some(tree) = &tree {
-                    field.seed_faces(&mut tile, place % tiles_y, place / tiles_y, tree);
+                    field.seed_faces(&mut tile, tile_y, tile_z, tree);
                 }
                 tile
             })
@@ -107,25 +109,32 @@ impl<'a> ClosestSites<'a> {
         for z in tile_z.saturating_sub(1)..(tile_z + 2).min(self.tiles_z) {
             for y in tile_y.saturating_sub(1)..(tile_y + 2).min(self.tiles_y) {
                 for site in self.sites.in_tile(y, z) {
-                    let voxel = self.sites.voxels[site];
-                    for z in around(voxel.z, &zs) {
-                        for y in around(voxel.y, &ys) {
-                            let row = self.row(y, z).start;
-                            for x in around(voxel.x, &(0..self.dims.x)) {
-                                let place = row + x as usize;
-                                let offset = Offset::new(self.sites.rounded[site], y, z);
-                                let square = offset.square_at(x as f32);
-                                if square < tile.squares[place] {
-                                    tile.squares[place] = square;
-                                    tile.sites[place] = site as u32;
-                                }
-                            }
-                        }
-                    }
+                    self.seed(&mut tile, site, &ys, &zs);
                 }
             }
         }
         tile
+    }
+
+    /// Offers a site to the voxels about its own.
+    fn seed(&self, tile: &mut Tile, site: usize, ys: &Range<u32>, zs: &Range<u32>) {
+        let voxel = self.sites.voxels[site];
+        let xs = around(voxel.x, &(0..self.dims.x));
+        for z in around(voxel.z, zs) {
+            for y in around(voxel.y, ys) {
+                let row = self.row(y, z).start;
+                let row = row + xs.start as usize..row + xs.end as usize;
+                let offset = Offset::new(self.sites.rounded[site], y, z);
+                let voxels = tile.sites[row.clone()]
+                    .iter_mut()
+                    .zip(&mut tile.squares[row]);
+                for ((known, square), x) in voxels.zip(xs.start as i32..) {
+                    let other = offset.square_at(x as f32);
+                    *known = if other < *square { site as u32 } else { *known };
+                    *square = if other < *square { other } else { *square };
+                }
+            }
+        }
     }
 
     fn seed_faces(&self, tile: &mut Tile, tile_y: u32, tile_z: u32, tree: &KdTree) {
@@ -215,33 +224,48 @@ impl<'a> ClosestSites<'a> {
             (&mut tile.sites[row.clone()], source)
         };
         let squares = &mut tile.squares[row];
-        // Along a row few sites follow each other many times.
-        let mut carried = self.sites.none();
-        let mut offset = Offset::new(self.sites.rounded[carried as usize], y, z);
-        let mut start = 0;
-        for ((sites, squares), source) in sites
-            .chunks_mut(CHUNK)
-            .zip(squares.chunks_mut(CHUNK))
-            .zip(source.chunks(CHUNK))
+        let (site_chunks, last_sites) = sites.as_chunks_mut::<CHUNK>();
+        let (square_chunks, last_squares) = squares.as_chunks_mut::<CHUNK>();
+        let (source_chunks, last_source) = source.as_chunks::<CHUNK>();
+        let mut x = 0;
+        for ((sites, squares), source) in
+            site_chunks.iter_mut().zip(square_chunks).zip(source_chunks)
         {
-            if sites != source {
-                for (i, ((site, square), &candidate)) in
-                    sites.iter_mut().zip(squares).zip(source).enumerate()
-                {
-                    if *site != candidate {
-                        if candidate != carried {
-                            carried = candidate;
-                            offset = Offset::new(self.sites.rounded[carried as usize], y, z);
-                        }
-                        let other = offset.square_at((start + i as i32) as f32);
-                        if other < *square {
-                            *square = other;
-                            *site = candidate;
-                        }
-                    }
-                }
+            if differ(sites, source) {
+                self.take_over_chunk(sites, squares, source, (x, y, z));
             }
-            start += CHUNK as i32;
+            x += CHUNK as u32;
+        }
+        for ((site, square), &source) in last_sites.iter_mut().zip(last_squares).zip(last_source) {
+            self.take_over_chunk(
+                array::from_mut(site),
+                array::from_mut(square),
+                &[source],
+                (x, y, z),
+            );
+            x += 1;
+        }
+    }
+
+    /// Without branches: they would go either way at the borders of the closest sites' cells.
+    #[inline(always)]
+    fn take_over_chunk<const N: usize>(
+        &self,
+        sites: &mut [u32; N],
+        squares: &mut [f32; N],
+        source: &[u32; N],
+        (x, y, z): (u32, u32, u32),
+    ) {
+        let mut others = [0.0; N];
+        for i in 0..N {
+            let offset = Offset::new(self.sites.rounded[source[i] as usize], y, z);
+            others[i] = offset.square_at((x + i as u32) as f32);
+        }
+        for i in 0..N {
+            let closer = u32::from(others[i] < squares[i]).wrapping_neg();
+            sites[i] = (source[i] & closer) | (sites[i] & !closer);
+            squares[i] =
+                f32::from_bits((others[i].to_bits() & closer) | (squares[i].to_bits() & !closer));
         }
     }
 
@@ -274,20 +298,30 @@ impl<'a> ClosestSites<'a> {
     }
 
     /// The rows of a tile on an axis.
-    fn span(&self, tile: u32, dim: u32) -> std::ops::Range<u32> {
+    fn span(&self, tile: u32, dim: u32) -> Range<u32> {
         tile * TILE..((tile + 1) * TILE).min(dim)
     }
 
     /// Where a row lies in its tile.
-    fn row(&self, y: u32, z: u32) -> std::ops::Range<usize> {
+    fn row(&self, y: u32, z: u32) -> Range<usize> {
         let height = self.span(y / TILE, self.dims.y).len();
         let start = ((z % TILE) as usize * height + (y % TILE) as usize) * self.dims.x as usize;
         start..start + self.dims.x as usize
     }
 }
 
+/// A site is offered to the voxels that are at most this many from its own on every axis, so before the sweeps begin
+/// closest sites are exact up to a distance of half a voxel more.
+const REACH: u32 = 3;
+
 /// Voxels whose sites are compared at once before any is looked at.
-const CHUNK: usize = 16;
+const CHUNK: usize = 8;
+
+/// Whether two rows differ anywhere; a call to compare memory costs more than this for so few.
+#[inline(always)]
+fn differ(a: &[u32; CHUNK], b: &[u32; CHUNK]) -> bool {
+    a.iter().zip(b).fold(0, |bits, (a, b)| bits | (a ^ b)) != 0
+}
 
 /// What the square of the distance from one site is along one row.
 #[derive(Clone, Copy)]
@@ -326,9 +360,9 @@ fn behind(i: u32, count: u32, up: bool) -> Option<u32> {
     }
 }
 
-/// A voxel and its neighbours on one axis, those within a range.
-fn around(voxel: u32, range: &std::ops::Range<u32>) -> std::ops::Range<u32> {
-    voxel.saturating_sub(1).max(range.start)..(voxel + 2).min(range.end)
+/// The voxels at most `REACH` from one on an axis, those within a range.
+fn around(voxel: u32, range: &Range<u32>) -> Range<u32> {
+    voxel.saturating_sub(REACH).max(range.start)..(voxel + REACH + 1).min(range.end)
 }
 
 /// Two different rows of one array, the first to be changed.
