@@ -145,6 +145,46 @@ mod tests {
     }
 
     #[test]
+    fn a_box_is_fitted_by_its_corners_and_what_sticks_out() {
+        let bounds = Aabb {
+            min: DVec3::new(-1.0, -2.0, 3.0),
+            max: DVec3::new(1.0, 4.0, 5.0),
+        };
+        let camera = Camera::new(
+            crate::View::Top,
+            crate::Up::Z,
+            crate::Projection::Orthographic,
+        )
+        .unwrap();
+        let fit = |point: DVec3| {
+            let (frame, fitted) = Frame::with_bounds([point].into_iter(), Some(bounds));
+            let mut seen = Vec::new();
+            let drawn_too = fitted.project(&camera, &mut |p| seen.push(p));
+            (frame, seen, drawn_too)
+        };
+        for (point, sticks_out) in [
+            (bounds.center(), false),
+            (bounds.max, false),
+            (DVec3::new(0.0, 0.0, 5.0), false),
+            (DVec3::new(0.0, 0.0, 5.1), true),
+            (DVec3::new(0.0, -2.1, 4.0), true),
+        ] {
+            let (frame, seen, drawn_too) = fit(point);
+            assert_eq!(drawn_too, sticks_out, "{point}");
+            assert!(frame.place(point).length() <= 1.0 + 1e-12);
+            // Every corner once.
+            for i in 0..8 {
+                let corner = |bit: usize| if i & bit == 0 { bounds.min } else { bounds.max };
+                let corner = DVec3::new(corner(1).x, corner(2).y, corner(4).z);
+                let expected = camera.project(frame.place(corner));
+                let times = seen.iter().filter(|&&found| found == expected).count();
+                assert_eq!(times, 1, "{corner}");
+            }
+            assert_eq!(seen.len(), 8);
+        }
+    }
+
+    #[test]
     fn one_point_and_none() {
         let point = DVec3::splat(1e300);
         assert_eq!(Frame::of([point].into_iter()).place(point), DVec3::ZERO);

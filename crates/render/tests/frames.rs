@@ -129,7 +129,14 @@ fn what_lies_outside_of_the_box_is_not_cut_off() {
         // Far behind where the viewer of the box alone would stand, too.
         for size in [3.0, 1e3, 1e300] {
             let high = triangle(size).map(|p| p + size * DVec3::Z);
-            let [left, right, top, bottom] = extent(&draw(&high, &options));
+            let image = draw(&high, &options);
+            let [left, right, top, bottom] = extent(&image);
+            // Upright: one leg along the lower edge, a tip above.
+            let filled = |row: u32| {
+                let row = image.pixels.chunks(100).nth(row as usize).unwrap();
+                row.iter().filter(|&&p| p != image.pixels[0]).count()
+            };
+            assert!(filled(bottom) > filled(top) + 10, "{projection:?} {size}");
             assert!(left > 0 && right < 99 && top > 0 && bottom < 99);
             assert!(
                 right > left + 20 && bottom > top + 20,
