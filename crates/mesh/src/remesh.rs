@@ -16,7 +16,7 @@ pub use options::{
 use crate::edit::MeshEditor;
 use crate::frame::Frame;
 use crate::{AngleBounds, HalfEdgeId, MeshError, TriMesh, quality};
-use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId};
+use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId, triangle};
 use reference::{Curves, Surface};
 
 /// How often vertices are relaxed in each round.
@@ -37,7 +37,8 @@ const SIDE_SQUARED: f64 = 2.309_401_076_758_503;
 ///
 /// Topology stays: components, genus, borders. Borders, and creases sharper than an angle, stay as curves: their
 /// vertices move along them only, and corners stay. No move and no collapse turns a triangle by more than 60°, and
-/// nothing folds the surface across an edge unless it was folded. The same mesh and options give the same result on any number of threads.
+/// nothing folds the surface across an edge unless it was folded. The same mesh and options give the same result on any
+/// number of threads.
 ///
 /// About O(n log n) a round in the larger of input and result.
 ///
@@ -70,27 +71,30 @@ pub fn remesh(
         let report = RemeshReport::unchanged(before);
         return Ok((mesh.clone(), report));
     };
-    let total = u64::from(options.iterations) + 2;
+    let total = 4 * u64::from(options.iterations) + 2;
     let step = |done: u64| Cancelled::check(progress.step(STAGE, done, total));
     step(0)?;
     state.drop_needles();
     state.mark_creases(options);
     state.keep_reference(options);
     state.check_size()?;
-    step(1)?;
-    for round in 0..options.iterations {
+    for round in 0..u64::from(options.iterations) {
+        step(4 * round + 1)?;
         if round > 0 && state.surface.is_none() {
             state.measure_lengths(options);
         }
         state.split_long()?;
+        step(4 * round + 2)?;
         state.collapse_short();
         state.compact();
+        step(4 * round + 3)?;
         state.equalize_valences();
+        step(4 * round + 4)?;
         for _ in 0..RELAXATIONS {
             state.relax();
         }
-        step(u64::from(round) + 2)?;
     }
+    step(total - 1)?;
     state.polish(polish::Freedom::All);
     step(total)?;
     let (mesh, mut report) = state.finish()?;
@@ -235,11 +239,14 @@ impl State {
     /// An error if the lengths ask for more triangles than ids can name.
     fn check_size(&self) -> Result<(), MeshError> {
         let mut count = 0.0;
-        for (t, vertices) in self.editor.triangles.iter().enumerate() {
+        for vertices in &self.editor.triangles {
             let length = vertices.map(|v| self.lengths[v.index()]);
             let least = length[0].min(length[1]).min(length[2]);
-            let area = 0.5 * self.editor.normal(crate::TriangleId::new(t)).length();
-            count += area / (least * least) * SIDE_SQUARED;
+            let [a, b, c] = vertices.map(|v| self.editor.at(v));
+            let area = triangle::area(a, b, c);
+            // The sides count too: a needle has no area, and is split all the same.
+            let around = a.distance(b) + b.distance(c) + c.distance(a);
+            count += area / (least * least) * SIDE_SQUARED + around / least;
         }
         match count < f64::from(u32::MAX / 3) {
             true => Ok(()),
@@ -306,3 +313,6 @@ fn mean_edge(mesh: &TriMesh) -> f64 {
     let (sum, count) = lengths.fold((0.0, 0_usize), |(sum, count), l| (sum + l, count + 1));
     sum / count as f64
 }
+
+#[cfg(test)]
+mod tests;

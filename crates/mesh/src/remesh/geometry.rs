@@ -32,8 +32,8 @@ fn longest_squared(a: DVec3, b: DVec3, c: DVec3) -> f64 {
 }
 
 /// How far a triangle is within the bounds of 30° and 120°: the lesser of (1 − cos α) / (1 − cos 30°) and
-/// (1 + cos γ) / (1 + cos 120°), with α its least and γ its greatest angle. Above 1 if both hold, 3 for the equilateral,
-/// 0 without area. Square roots only: the same bits on every machine.
+/// (1 + cos γ) / (1 + cos 120°), with α its least and γ its greatest angle. Above 1 if both hold, 3 for the
+/// equilateral, 0 without area. Square roots only: the same bits on every machine.
 pub(super) fn score([a, b, c]: [DVec3; 3]) -> f64 {
     /// 1 / (1 − cos 30°).
     const SMALL: f64 = 7.464_101_615_137_755;

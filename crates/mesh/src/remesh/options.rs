@@ -7,7 +7,8 @@ use crate::{MeshError, Quality};
 pub enum TargetLength {
     /// This long, in the units of the positions.
     Absolute(f64),
-    /// This many times the mean edge length of the mesh given.
+    /// This many times the mean edge length of the mesh given. For a mesh remeshed again and again an absolute length
+    /// is better: the mean drifts.
     Relative(f64),
     /// Short where the surface bends much, long where it bends little.
     Curvature(CurvatureLength),
@@ -54,8 +55,8 @@ impl CurvatureLength {
 pub enum Projection {
     /// Back onto the surface given: the nearest point that faces the same way.
     Surface,
-    /// Nowhere: they stay in the tangent plane. For surfaces that move on anyway; costs less, and loses a little
-    /// volume at each round. Vertices of borders and creases are projected onto those nonetheless.
+    /// Nowhere: they stay in the tangent plane. For surfaces that move on anyway; costs less, and shifts the surface
+    /// by a part of what triangles lie beside it. Vertices of borders and creases are projected onto those nonetheless.
     None,
 }
 

@@ -139,7 +139,7 @@ fn curve_curvature(editor: &MeshEditor, v: VertexId) -> f64 {
 }
 
 /// Lowers lengths until none exceeds a neighbour's by more than `gradation` times their distance.
-fn grade(mesh: MeshView, gradation: f64, lengths: &mut [f64]) {
+pub(super) fn grade(mesh: MeshView, gradation: f64, lengths: &mut [f64]) {
     let relax = |t: &[VertexId; 3], lengths: &mut [f64]| {
         let mut changed = false;
         for (v, w) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
