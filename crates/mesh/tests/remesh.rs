@@ -284,6 +284,43 @@ fn creases_stay_where_they_are() {
 }
 
 #[test]
+fn creases_are_found_behind_caps() {
+    // On every third sharp edge of a cube a triangle without area, whose normal tells nothing of the crease.
+    let mut fine = mesh(cube());
+    for _ in 0..2 {
+        fine = subdivide(&fine).unwrap();
+    }
+    let normal = |h: HalfEdgeId| {
+        let [a, b, c] = fine.corners(h.triangle());
+        triangle::unit_normal(a, b, c).unwrap()
+    };
+    let is_sharp = |h: &HalfEdgeId| normal(*h).dot(normal(fine.twin(*h).unwrap())) < 0.5;
+    let mut editor = MeshEditor::new(fine.clone());
+    let sharp: Vec<_> = fine.edges().filter(is_sharp).collect();
+    let ends = |h: HalfEdgeId| [fine.origin(h), fine.destination(h)];
+    for pair in sharp.iter().step_by(3).map(|&h| ends(h)) {
+        let h = editor
+            .half_edges()
+            .find(|&h| editor.ends(h) == Some(pair))
+            .unwrap();
+        let [a, b] = pair.map(|v| fine.position(v));
+        let m = editor.split(h, 0.5 * (a + b)).unwrap();
+        // The edge across, at one side of the new vertex: flipped, it is a–b again, with m in a cap beside it.
+        let across = h.next();
+        assert_eq!(editor.ends(across).unwrap()[0], m);
+        editor.flip(across).unwrap();
+    }
+    let capped = editor.finish().0;
+    assert_eq!(capped.validate().len(), sharp.len().div_ceil(3));
+    let options = RemeshOptions {
+        crease_angle: Some(1.0),
+        ..relative(1.0)
+    };
+    let (result, _) = remeshed(&capped, &options);
+    assert!((signed_volume((&result).into()) - 1.0).abs() < 1e-12);
+}
+
+#[test]
 fn lengths_follow_the_curvature() {
     // A sphere: one curvature, one length.
     let (radius, tolerance) = (2.0, 0.01);

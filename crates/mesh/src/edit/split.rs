@@ -41,13 +41,9 @@ impl MeshEditor {
                 self.join(upper, g, crease);
             }
         }
-        // The new half-edge at m; then the ends, whose half-edge on a border may be a new one.
-        self.set_outgoing(upper);
-        self.set_outgoing(upper.next());
-        self.set_outgoing(upper.previous());
-        self.set_outgoing(h);
-        if let Some(g) = twin.some() {
-            self.set_outgoing(g.previous());
+        // The ends' half-edges may have become others: a → d and b → c lie in new triangles now.
+        for leaving in [upper, upper.next(), h] {
+            self.set_outgoing(leaving);
         }
         Ok(m)
     }

@@ -194,6 +194,35 @@ fn lengths_are_graded() {
 }
 
 #[test]
+fn lengths_from_curvature_are_graded_too() {
+    let mut pill = icosphere(4).unwrap();
+    let stretched = pill
+        .positions()
+        .iter()
+        .map(|p| p.with_z(6.0 * p.z))
+        .collect();
+    pill.set_positions(stretched).unwrap();
+    let editor = MeshEditor::new(pill);
+    let kinds = vec![Kind::Free; editor.positions.len()];
+    let wanted = |gradation| CurvatureLength {
+        gradation,
+        ..CurvatureLength::new(0.01, 0.01, 10.0)
+    };
+    let steepest = |gradation| {
+        let lengths = sizing::curvature_lengths(&editor, &kinds, &wanted(gradation));
+        let slope = |h| {
+            let [a, b] = [editor.origin(h), editor.destination(h)];
+            let rise = (lengths[a.index()] - lengths[b.index()]).abs();
+            rise / editor.at(a).distance(editor.at(b))
+        };
+        editor.edges().map(slope).fold(0.0, f64::max)
+    };
+    assert!(steepest(1e3) > 0.1, "there is something to grade");
+    assert!(steepest(0.05) < 0.05 + 1e-12);
+    assert!(steepest(0.0) < 1e-12);
+}
+
+#[test]
 fn creases_do_not_merge_and_do_not_flip() {
     let options = RemeshOptions {
         crease_angle: Some(0.5),
