@@ -1,5 +1,6 @@
 //! Times every solver on the systems of a surface in motion: `cargo run --release -p pellicle-evolution --example
-//! time_solvers -- 6` for 40 962 vertices (4: 2562, 5: 10 242). One thread: set `RAYON_NUM_THREADS=1`.
+//! time_solvers -- 6` for 40 962 vertices (4: 2562, 5: 10 242). One thread: set `RAYON_NUM_THREADS=1`. A second argument
+//! picks the solvers whose name contains it, to count instructions.
 
 use glam::DVec3;
 use pellicle_evolution::linear::{
@@ -22,6 +23,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let levels = std::env::args()
         .nth(1)
         .map_or(Ok(4), |level| level.parse())?;
+    let wanted = std::env::args().nth(2).unwrap_or_default();
+    let is_wanted = |name: &str| name.contains(&wanted);
     let mesh = icosphere(levels)?;
     let pattern = Arc::new(CsrPattern::of_mesh(&mesh)?);
     let steps: Vec<_> = (0..STEPS)
@@ -33,6 +36,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let iterative = kinds.map(|kind| [Solver::BiCgStab(kind), Solver::ConjugateGradient(kind)]);
     let direct = [Solver::Cholesky, Solver::LaggedCholesky];
     for method in iterative.into_iter().flatten().chain(direct) {
+        if !is_wanted(&format!("psi {method:?}")) {
+            continue;
+        }
         time(method, &steps, |system| (&system.stiffness, &system.source))?;
     }
     println!("positions, three right-hand sides");
@@ -42,6 +48,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         Preconditioning::Ilu0,
     ] {
         let method = Solver::BiCgStab(kind);
+        if !is_wanted(&format!("positions {method:?}")) {
+            continue;
+        }
         time(method, &steps, |system| {
             (&system.implicit, &system.positions)
         })?;

@@ -19,6 +19,17 @@ pub enum Solver {
     LaggedCholesky,
 }
 
+impl Solver {
+    /// What measured best, from 2562 to 40 962 vertices, for the pinned stiffness and its like: symmetric positive
+    /// definite, ill-conditioned. [`LaggedCholesky`](Self::LaggedCholesky) takes about two thirds of its time, at the
+    /// price of a result that depends on the steps before.
+    pub const SYMMETRIC: Self = Self::Cholesky;
+
+    /// What measured best, from 2562 to 40 962 vertices, for the implicit step in time: not symmetric, dominated by its
+    /// diagonal. ILU(0) halves the iterations and takes as long, and only on one thread.
+    pub const GENERAL: Self = Self::BiCgStab(Preconditioning::Jacobi);
+}
+
 /// How an iteration is preconditioned.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Preconditioning {
@@ -30,8 +41,8 @@ pub enum Preconditioning {
     Ilu0,
 }
 
-/// Iterations that cost as much as a factor: a product and a solution against a factorisation, measured from 2562 to
-/// 40 962 rows.
+/// Iterations that cost as much as a factor: six to nine were measured, from 2562 to 40 962 rows. A factor is renewed
+/// when it has cost as much again as a new one, so never more than twice what foresight would spend.
 const FACTOR_WORTH: usize = 7;
 
 /// Solves systems whose matrix changes from step to step while its pattern mostly stands.
@@ -59,7 +70,7 @@ const FACTOR_WORTH: usize = 7;
 /// let mut right = vec![0.0; matrix.rows()];
 /// (right[10], right[20]) = (1.0, -1.0);
 ///
-/// let mut solver = LinearSolver::new(Solver::Cholesky, IterativeOptions::default());
+/// let mut solver = LinearSolver::new(Solver::SYMMETRIC, IterativeOptions::default());
 /// let mut solution = vec![0.0; matrix.rows()];
 /// let convergence = solver.solve(&matrix, &right, &mut solution)?;
 /// assert!(convergence.residual < 1e-10);
