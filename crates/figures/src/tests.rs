@@ -152,6 +152,17 @@ fn samples_lie_on_the_surface() {
     }
 }
 
+#[test]
+fn the_vertices_of_the_truths_lie_on_the_surface() {
+    for shape in all() {
+        for &p in shape.truth.positions() {
+            let (value, gradient) = shape.field().at(p);
+            let off = (value / gradient.length()).abs() / shape.diagonal();
+            assert!(off < 1e-13, "{} at {p}: {off:e}", shape.name);
+        }
+    }
+}
+
 /// Σ (n − e)²/e, for counts n and expected counts e.
 fn chi_square(counts: &[f64], expected: &[f64]) -> f64 {
     let term = |(n, e): (&f64, &f64)| (n - e) * (n - e) / e;
