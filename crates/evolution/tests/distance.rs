@@ -357,10 +357,13 @@ fn the_field_depends_on_the_set_of_points_alone() {
             storage,
             ..options(70, 1.0)
         };
-        for (name, mut points) in clouds() {
-            if points.len() > 200 {
-                continue;
-            }
+        let mut clouds = clouds();
+        clouds.retain(|cloud| cloud.1.len() <= 200);
+        // Many points a voxel, many of them equally far from its centre.
+        let crowd = (0..4000_u32)
+            .map(|i| DVec3::new((i % 20).into(), (i / 20 % 20).into(), (i / 400).into()));
+        clouds.push(("crowd", crowd.chain([DVec3::splat(700.0)]).collect()));
+        for (name, mut points) in clouds {
             let expected = bits(&build(&points, &options));
             points.reverse();
             let middle = points.len() / 2;
@@ -580,12 +583,12 @@ fn sparse_is_continuous_and_near_the_distance_everywhere() {
             let grid = build(&points, &options);
             let h = grid.spacing();
             let mut random = Random(10);
-            for _ in 0..20 {
+            for _ in 0..5 {
                 let bounds = grid.bounds();
                 let inner = bounds.extent() - h;
                 let mut point = || bounds.min + 0.5 * h + random.point() * inner;
                 let (from, to) = (point(), point());
-                let steps = ((to - from).length() / (0.01 * h)) as u32;
+                let steps = ((to - from).length() / (0.02 * h)) as u32;
                 let mut last: Option<Sample> = None;
                 for i in 0..steps {
                     let at = from.lerp(to, f64::from(i) / f64::from(steps));
@@ -593,7 +596,7 @@ fn sparse_is_continuous_and_near_the_distance_everywhere() {
                     if let Some(last) = last {
                         let jump = (sample.value - last.value).abs() / h;
                         let turn = (sample.gradient - last.gradient).length();
-                        assert!(jump < 0.03, "{name} {at}: {jump}");
+                        assert!(jump < 0.04, "{name} {at}: {jump}");
                         assert!(turn < 0.05, "{name} {at}: {turn}");
                         worst = [worst[0].max(jump), worst[1].max(turn), worst[2]];
                     }
