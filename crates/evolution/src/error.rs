@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use pellicle_geometry::{Cancelled, VertexId};
-use pellicle_mesh::MeshError;
+use pellicle_mesh::{MeshError, TriMesh};
 
 /// What can go wrong with an evolution.
 #[derive(Debug, thiserror::Error)]
@@ -34,6 +34,18 @@ pub enum Error {
         /// Where it stands.
         position: DVec3,
     },
+    /// The surface has shrunk to nothing.
+    #[error(
+        "after {step} steps the surface has shrunk to nothing: the points enclose no volume that the grid resolves. \
+         Raise the resolution, or give points all around the object; open sheets are for the cocone method"
+    )]
+    Collapsed {
+        /// The step, from one.
+        step: u64,
+    },
+    /// A linear system could not be solved; the surface stands where it stood before the step.
+    #[error(transparent)]
+    Linear(#[from] crate::linear::LinearError),
     /// A mesh could not be made.
     #[error(transparent)]
     Mesh(#[from] MeshError),
@@ -94,4 +106,14 @@ pub enum Error {
     /// The observer asked for a stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl Error {
+    /// [`Error::NotClosed`], with the first edge that says so.
+    pub(crate) fn not_closed(mesh: &TriMesh) -> Self {
+        let border = mesh.half_edge_ids().find(|&h| mesh.twin(h).is_none());
+        Self::NotClosed {
+            edge: border.map(|h| [mesh.origin(h), mesh.destination(h)]),
+        }
+    }
 }

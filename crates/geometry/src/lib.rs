@@ -11,8 +11,10 @@ mod cloud;
 mod id;
 mod progress;
 pub mod triangle;
+mod union_find;
 
 pub use aabb::Aabb;
 pub use cloud::{CloudError, PointCloud, first_not_finite};
 pub use id::VertexId;
 pub use progress::{Cancelled, Progress};
+pub use union_find::UnionFind;

@@ -50,7 +50,6 @@ mod shapes;
 mod soup;
 mod split;
 mod trimesh;
-mod union_find;
 mod validate;
 
 pub use distance::{Comparison, DistanceOptions, Distances, compare, distances};

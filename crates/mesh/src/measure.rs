@@ -2,9 +2,9 @@
 
 use crate::edge_table::{EdgeTable, Entry, corner_at, origin};
 use crate::frame::{Frame, Sum};
-use crate::union_find::UnionFind;
 use crate::validate::{duplicates, umbrellas};
 use crate::{MeshError, MeshView, TriangleId};
+use pellicle_geometry::UnionFind;
 use pellicle_geometry::{Aabb, DVec3, VertexId, triangle};
 use std::f64::consts::PI;
 

@@ -1,8 +1,8 @@
 //! The total validator: every defect, by id.
 
 use crate::edge_table::{EdgeTable, corner_at, origin};
-use crate::union_find::UnionFind;
 use crate::{HalfEdgeId, MeshView, TriangleId};
+use pellicle_geometry::UnionFind;
 use pellicle_geometry::{DVec2, DVec3, VertexId};
 use pellicle_predicates::{Sign, orient2d};
 use std::fmt;

@@ -1,0 +1,71 @@
+//! Figures that a right implementation shows on a sphere.
+
+use pellicle_evolution::{Evolution, One, Redistribution, StepOptions};
+use pellicle_geometry::DVec3;
+use pellicle_mesh::{AngleBounds, icosphere, quality};
+
+#[test]
+fn mean_curvature_flow_shrinks_a_sphere_with_second_order() {
+    // R(t) = √(1 − 4t), to t = 0.2, with τ ~ h².
+    let error = |levels: u32, steps: u32| {
+        let options = StepOptions {
+            advection: 0.0,
+            diffusion: 1.0,
+            time_step: 0.2 / f64::from(steps),
+            redistribution: Redistribution::None,
+            ..StepOptions::default()
+        };
+        let mut evolution = Evolution::new(icosphere(levels).unwrap()).unwrap();
+        let mut largest = 0.0_f64;
+        for step in 1..=steps {
+            evolution.step(&One, &options).unwrap();
+            let exact = (1.0 - 0.8 * f64::from(step) / f64::from(steps)).sqrt();
+            for p in evolution.mesh().positions() {
+                largest = largest.max((p.length() - exact).abs());
+            }
+        }
+        largest
+    };
+    let errors = [error(2, 20), error(3, 80), error(4, 320)];
+    println!("errors of the radius {errors:?}");
+    let order = |a: usize, b: usize| (errors[a] / errors[b]).log2() / (b - a) as f64;
+    assert!(order(0, 2) >= 1.8 && order(1, 2) >= 1.8, "{errors:?}");
+}
+
+#[test]
+fn redistribution_alone_makes_areas_uniform_and_keeps_the_sphere() {
+    // 2,562 vertices, crowded towards one side.
+    let mut mesh = icosphere(4).unwrap();
+    let crowded = mesh.positions().iter();
+    let crowded = crowded.map(|&p| (p + DVec3::new(0.0, 0.0, 0.3)).normalize());
+    let crowded = crowded.collect();
+    mesh.set_positions(crowded).unwrap();
+    let area_variation = |evolution: &Evolution| {
+        let bounds = AngleBounds::default();
+        quality(evolution.mesh().into(), &bounds)
+            .unwrap()
+            .vertex_area_variation
+    };
+    let options = StepOptions {
+        advection: 0.0,
+        diffusion: 0.0,
+        time_step: 0.001,
+        redistribution: Redistribution::AreaUniform { omega: 100.0 },
+        ..StepOptions::default()
+    };
+    let mut evolution = Evolution::new(mesh).unwrap();
+    let mut variations = vec![area_variation(&evolution)];
+    let mut radii = (f64::INFINITY, 0.0_f64);
+    for _ in 0..100 {
+        evolution.step(&One, &options).unwrap();
+        variations.push(area_variation(&evolution));
+        for p in evolution.mesh().positions() {
+            radii = (radii.0.min(p.length()), radii.1.max(p.length()));
+        }
+    }
+    println!("variation {:?}", [0, 10, 30, 100].map(|i| variations[i]));
+    println!("radius {radii:?}");
+    assert!(variations[0] > 0.3);
+    assert!(variations[100] <= 0.01, "{}", variations[100]);
+    assert!(radii.0 >= 0.995 && radii.1 <= 1.005, "{radii:?}");
+}
