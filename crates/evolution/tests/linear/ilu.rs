@@ -147,3 +147,20 @@ fn pivots_that_vanish_are_replaced() {
         assert!(image.iter().all(|value| value.is_finite()), "{rows:?}");
     }
 }
+
+/// The example of Kershaw 1978: positive definite, but the last pivot of its incomplete factors is −5.
+#[test]
+fn a_pivot_that_turns_negative_is_replaced() {
+    let values = [3, -2, 0, 2, -2, 3, -2, 0, 0, -2, 3, -2, 2, 0, -2, 3].map(f64::from);
+    let matrix = DMatrix::from_row_slice(4, 4, &values);
+    assert!(matrix.clone().cholesky().is_some());
+    let matrix = sparse(&matrix);
+    let product = operator(&mut Ilu0::new(&matrix), 4);
+    assert!((&product - product.transpose()).norm() < 1e-12);
+    assert!(product.cholesky().is_some());
+    let (options, workspace) = (IterativeOptions::default(), &mut Workspace::default());
+    let (right, mut solution) = ([1.0, 2.0, -3.0, 0.5], [0.0; 4]);
+    let ilu = &mut Ilu0::new(&matrix);
+    conjugate_gradient(&matrix, &right, &mut solution, ilu, &options, workspace).unwrap();
+    assert!(relative_residual(&matrix, &solution, &right) < 1.01e-10);
+}
