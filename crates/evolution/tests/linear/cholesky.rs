@@ -102,6 +102,34 @@ fn dissection_keeps_the_factor_sparse() {
     }
 }
 
+/// Graphs that cannot be halved: a hub with leaves, and rows without a neighbour. Quadratic time would show.
+#[test]
+fn stars_and_isolated_rows() {
+    let rows = 60_000;
+    let hub = rows / 2;
+    let pattern = CsrPattern::from_neighbors(rows, |row| match row {
+        _ if row == hub => 0..hub,
+        _ if row < hub => hub..hub + 1,
+        _ => 0..0,
+    });
+    let mut matrix = CsrMatrix::zeros(Arc::new(pattern.unwrap()));
+    for row in 0..rows {
+        matrix
+            .add(row, row, if row == hub { rows as f64 } else { 2.0 })
+            .unwrap();
+        if row < hub {
+            matrix.add(row, hub, -1.0).unwrap();
+            matrix.add(hub, row, -1.0).unwrap();
+        }
+    }
+    let right = random_vector(1, rows);
+    let mut solution = vec![f64::NAN; rows];
+    let cholesky = Cholesky::new(&matrix).unwrap();
+    assert!(cholesky.entries() < 20 * rows);
+    cholesky.solve(&right, &mut solution).unwrap();
+    assert!(relative_residual(&matrix, &solution, &right) < 1e-12);
+}
+
 #[test]
 fn a_refreshed_factor_is_a_new_one() {
     let surface = Surface::icosphere(3);

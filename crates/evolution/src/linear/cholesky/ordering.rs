@@ -31,12 +31,14 @@ pub(super) fn nested_dissection(pattern: &CsrPattern) -> Vec<u32> {
             order[end - vertices.len()..end].copy_from_slice(&vertices);
             continue;
         }
-        let [separator, low, high] = dissection.dissect(&vertices);
-        order[end - separator.len()..end].copy_from_slice(&separator);
-        let end = end - separator.len();
-        let middle = end - high.len();
-        todo.push((high, end));
-        todo.push((low, middle));
+        let (separator, parts) = dissection.dissect(&vertices);
+        let mut end = end - separator.len();
+        order[end..end + separator.len()].copy_from_slice(&separator);
+        for part in parts {
+            let size = part.len();
+            todo.push((part, end));
+            end -= size;
+        }
     }
     order
 }
@@ -52,25 +54,16 @@ struct Dissection<'a> {
 }
 
 impl Dissection<'_> {
-    /// A separator and two sets without an edge between them. The separator is empty if the vertices are not connected.
-    fn dissect(&mut self, vertices: &[u32]) -> [Vec<u32>; 3] {
+    /// A separator, and sets without an edge between them: two sides, or as many as are not connected and then no
+    /// separator.
+    fn dissect(&mut self, vertices: &[u32]) -> (Vec<u32>, Vec<Vec<u32>>) {
         self.sets += 1;
         for &vertex in vertices {
             self.set[vertex as usize] = self.sets;
         }
         self.measure(vertices[0], 0);
         if self.queue.len() < vertices.len() {
-            let reached = std::mem::take(&mut self.queue);
-            self.sets += 1;
-            for &vertex in &reached {
-                self.set[vertex as usize] = self.sets;
-            }
-            let missed = |&vertex: &u32| self.set[vertex as usize] != self.sets;
-            return [
-                vec![],
-                vertices.iter().copied().filter(missed).collect(),
-                reached,
-            ];
+            return (vec![], self.components(vertices));
         }
         let a = self.last();
         self.measure(a, 0);
@@ -78,11 +71,11 @@ impl Dissection<'_> {
         self.measure(b, 1);
         let split = self.halves(vertices);
         let [low, high] = [true, false].map(|side| self.rim(vertices, split, side));
-        let (separator, side) = if low.len() <= high.len() {
-            (low, true)
-        } else {
-            (high, false)
-        };
+        // Of equal rims that of the larger side: the other may be all of its own.
+        let is_low = |&&vertex: &&u32| self.is_low(vertex, split);
+        let larger_is_low = 2 * vertices.iter().filter(is_low).count() > vertices.len();
+        let takes_low = low.len() < high.len() || (low.len() == high.len() && larger_is_low);
+        let separator = if takes_low { low } else { high };
         self.sets += 1;
         for &vertex in &separator {
             self.set[vertex as usize] = self.sets;
@@ -93,14 +86,31 @@ impl Dissection<'_> {
             };
             vertices.iter().filter(belongs).copied().collect()
         };
-        let _ = side;
-        [separator, rest(true), rest(false)]
+        (separator, vec![rest(false), rest(true)])
+    }
+
+    /// The connected components of the present set.
+    fn components(&mut self, vertices: &[u32]) -> Vec<Vec<u32>> {
+        let set = self.sets;
+        let mut components = Vec::new();
+        for &vertex in vertices {
+            if self.set[vertex as usize] == set {
+                self.measure(vertex, 0);
+                let component = std::mem::take(&mut self.queue);
+                self.sets += 1;
+                for &vertex in &component {
+                    self.set[vertex as usize] = self.sets;
+                }
+                components.push(component);
+            }
+        }
+        components
     }
 
     /// Distances from `start` within its set; the queue then holds all that was reached, the farthest last.
     fn measure(&mut self, start: u32, end: usize) {
         let set = self.set[start as usize];
-        // A vertex is known to be reached by its set's sign bit: flip it for the time being.
+        // Vertices that are reached form a set of their own for the time being.
         let reached = set | 1 << 31;
         self.queue.clear();
         self.queue.push(start);
