@@ -1,8 +1,8 @@
 //! What can be said on the command line.
 
 use crate::commands::{
-    compare::Compare, convert::Convert, delaunay::Delaunay, info::Info, normals::Normals,
-    reconstruct::Reconstruct, render::Render,
+    compare::Compare, convert::Convert, delaunay::Delaunay, evolve::Evolve, info::Info,
+    normals::Normals, reconstruct::Reconstruct, remesh::Remesh, render::Render, smooth::Smooth,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
@@ -29,6 +29,8 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 inter
 pub enum Verb {
     /// Reconstruct a surface from points
     Reconstruct(Reconstruct),
+    /// Evolve a closed surface onto points, noisy or with gaps
+    Evolve(Evolve),
     /// Write the Delaunay tetrahedra of points, or their hull
     Delaunay(Delaunay),
     /// Say what a file holds: points, or a mesh and its defects
@@ -37,6 +39,10 @@ pub enum Verb {
     Convert(Convert),
     /// Estimate an oriented normal at every point
     Normals(Normals),
+    /// Smooth a closed mesh by mean curvature flow
+    Smooth(Smooth),
+    /// Give a mesh new triangles, even and well shaped
+    Remesh(Remesh),
     /// Measure the distance between two surfaces
     Compare(Compare),
     /// Draw a mesh or points, from several sides, on one sheet
@@ -98,4 +104,23 @@ pub enum Encoding {
     Binary,
     /// Text, with as many digits as read back to the same number
     Text,
+}
+
+/// A number above zero.
+pub fn positive(text: &str) -> Result<f64, String> {
+    number(text, |value| value > 0.0, "must be above zero")
+}
+
+/// A number that is zero or above.
+pub fn not_negative(text: &str) -> Result<f64, String> {
+    number(text, |value| value >= 0.0, "must not be negative")
+}
+
+/// A finite number that is `good`, or else what it must be.
+pub fn number(text: &str, good: impl Fn(f64) -> bool, expected: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && good(value) => Ok(value),
+        Ok(_) => Err(expected.to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
 }

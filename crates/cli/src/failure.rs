@@ -2,7 +2,7 @@
 
 use miette::Diagnostic;
 use pellicle::geometry::{Cancelled, CloudError};
-use pellicle::{cocone, delaunay, io, mesh, render};
+use pellicle::{cocone, delaunay, evolution, io, mesh, render};
 use std::fmt;
 use std::path::PathBuf;
 
@@ -28,7 +28,15 @@ pub enum Failure {
         /// The reason.
         reason: cocone::Error,
     },
-    /// A mesh was not measured.
+    /// A surface did not evolve onto points, or was not smoothed.
+    #[error("{}: {reason}", .path.display())]
+    Evolution {
+        /// The file: the cloud, or the surface that is the reason.
+        path: PathBuf,
+        /// The reason.
+        reason: evolution::Error,
+    },
+    /// A mesh was not measured, or not remeshed.
     #[error("{}: {reason}", .path.display())]
     Mesh {
         /// The file.
@@ -94,6 +102,11 @@ impl Failure {
                 }
                 | Self::Cocone {
                     reason: cocone::Error::Cancelled(_),
+                    ..
+                }
+                | Self::Evolution {
+                    reason: evolution::Error::Cancelled(_)
+                        | evolution::Error::Mesh(mesh::MeshError::Cancelled(_)),
                     ..
                 }
                 | Self::Mesh {

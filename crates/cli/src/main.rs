@@ -7,6 +7,8 @@ mod failure;
 mod interrupt;
 mod output;
 mod progress;
+mod snapshots;
+mod surface;
 
 use arguments::{Arguments, Global};
 use clap::Parser;

@@ -37,10 +37,52 @@ pub fn report(global: &Global, value: &impl Serialize) -> Result<(), Failure> {
     }
 }
 
+/// A number with six digits that tell.
+pub fn digits(value: f64) -> String {
+    let magnitude = value.abs().log10();
+    match value {
+        0.0 => "0".to_owned(),
+        _ if !(-4.0..9.0).contains(&magnitude) => format!("{value:.5e}"),
+        _ => format!("{value:.*}", (5 - magnitude.floor() as i32).max(0) as usize),
+    }
+}
+
 /// Logs what a reader or writer left out or changed.
 pub fn log_notes(path: &Path, notes: &[Note]) {
     for note in notes {
         tracing::warn!("{}: {note}", path.display());
+    }
+}
+
+/// Fails early where a file exists, is a directory, or has no directory to stand in.
+pub fn check_place(path: &Path, force: bool) -> Result<(), Failure> {
+    if let Ok(metadata) = std::fs::metadata(path) {
+        let path = path.to_owned();
+        if metadata.is_dir() {
+            return Err(io::Error::Directory { path }.into());
+        }
+        if !force {
+            return Err(io::Error::Exists { path }.into());
+        }
+    }
+    check_parent(path)
+}
+
+/// Fails where a file or directory has no directory to stand in.
+pub fn check_parent(path: &Path) -> Result<(), Failure> {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
+            let reason = format!(
+                "there is no directory {}; create it first",
+                parent.display()
+            );
+            Err(Failure::File(io::Error::Io {
+                path: path.to_owned(),
+                action: "created",
+                reason: std::io::Error::new(ErrorKind::NotFound, reason),
+            }))
+        }
+        _ => Ok(()),
     }
 }
 
@@ -77,29 +119,7 @@ impl Target {
 
     /// Fails early where the file exists, is a directory, or has no directory to stand in.
     pub fn check_place(&self) -> Result<(), Failure> {
-        let path = self.output.clone();
-        if let Ok(metadata) = std::fs::metadata(&path) {
-            if metadata.is_dir() {
-                return Err(io::Error::Directory { path }.into());
-            }
-            if !self.force {
-                return Err(io::Error::Exists { path }.into());
-            }
-        }
-        match path.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
-                let reason = format!(
-                    "there is no directory {}; create it first",
-                    parent.display()
-                );
-                Err(Failure::File(io::Error::Io {
-                    path,
-                    action: "created",
-                    reason: std::io::Error::new(ErrorKind::NotFound, reason),
-                }))
-            }
-            _ => Ok(()),
-        }
+        check_place(&self.output, self.force)
     }
 
     /// Runs a writer, and logs what it could not keep.
@@ -110,5 +130,26 @@ impl Target {
         let report = interrupt::while_writing(write)?;
         log_notes(&self.output, &report.notes);
         Ok(report)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::digits;
+
+    #[test]
+    fn six_digits_tell() {
+        for (value, expected) in [
+            (0.0, "0"),
+            (1.0, "1.00000"),
+            (-12.345_678_9, "-12.3457"),
+            (0.000_123_456_789, "0.000123457"),
+            (1_234_567.8, "1234568"),
+            (1.234_567_8e12, "1.23457e12"),
+            (1.234_567_8e-12, "1.23457e-12"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(digits(value), expected);
+        }
     }
 }

@@ -27,7 +27,25 @@ impl Watch {
             stage: Mutex::new(""),
         }
     }
+
+    /// Shows a line of text instead of a bar, until the next stage.
+    pub fn tell(&self, text: impl FnOnce() -> String) {
+        if let Some(bar) = &self.bar {
+            let mut shown = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
+            if *shown != TEXT {
+                *shown = TEXT;
+                bar.set_style(style("{msg} {elapsed}"));
+            }
+            bar.set_message(text());
+            bar.tick();
+        }
+    }
 }
+
+/// In place of a stage: a text is shown.
+const TEXT: &str = "text";
+/// How a stage is shown.
+const BAR: &str = "{msg:>12} [{bar:40}] {percent:>3}% {elapsed}";
 
 fn bar() -> ProgressBar {
     // Drawn on any stream: `--progress bar` into a file shows what it would on a terminal.
@@ -36,9 +54,13 @@ fn bar() -> ProgressBar {
     } else {
         ProgressDrawTarget::term_like_with_hz(Box::new(Plain), 2)
     };
-    let style = ProgressStyle::with_template("{msg:>12} [{bar:40}] {percent:>3}% {elapsed}")
-        .unwrap_or_else(|_| ProgressStyle::default_bar());
-    ProgressBar::with_draw_target(None, target).with_style(style.progress_chars("=> "))
+    ProgressBar::with_draw_target(None, target).with_style(style(BAR))
+}
+
+fn style(template: &str) -> ProgressStyle {
+    ProgressStyle::with_template(template)
+        .unwrap_or_else(|_| ProgressStyle::default_bar())
+        .progress_chars("=> ")
 }
 
 /// Standard error where it is no terminal: a line an update.
@@ -87,6 +109,9 @@ impl Progress for Watch {
         if let Some(bar) = &self.bar {
             let mut shown = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
             if *shown != stage {
+                if *shown == TEXT {
+                    bar.set_style(style(BAR));
+                }
                 *shown = stage;
                 bar.set_message(stage);
             }

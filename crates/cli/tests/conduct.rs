@@ -10,12 +10,15 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::tempdir;
 
-const VERBS: [&str; 7] = [
+const VERBS: [&str; 10] = [
     "reconstruct",
+    "evolve",
     "delaunay",
     "info",
     "convert",
     "normals",
+    "smooth",
+    "remesh",
     "compare",
     "render",
 ];
@@ -36,6 +39,14 @@ fn wrong_usage_exits_with_2() {
         &["info", &kitten, "--progress", "maybe"],
         &["compare", &kitten],
         &["render", &kitten, "-o", "a.png", "--width", "-5"],
+        &["evolve", &kitten, "-o", "a.ply", "--every", "5"],
+        &["evolve", &kitten, "-o", "a.ply", "--grid", "3"],
+        &["evolve", &kitten, "-o", "a.ply", "--sigma", "17"],
+        &["evolve", &kitten, "-o", "a.ply", "--diffusion", "-1"],
+        &["evolve", &kitten, "-o", "a.ply", "--preset", "free"],
+        &["smooth", &kitten, "-o", "a.ply", "--strength", "nan"],
+        &["remesh", &kitten, "-o", "a.ply", "--min", "1"],
+        &["remesh", &kitten, "-o", "a.ply", "--creases", "200"],
     ] {
         let assert = pellicle(folder.path()).args(arguments).assert().code(2);
         assert_eq!(stdout(&assert), "", "{arguments:?}");

@@ -274,6 +274,7 @@ impl Run<'_> {
                 number,
                 self.report.steps,
                 &report,
+                spacing,
                 seconds,
             );
             (self.each_step)(&measures, evolution.mesh());

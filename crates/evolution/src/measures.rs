@@ -12,6 +12,8 @@ pub struct Measures {
     pub step: u64,
     /// τ of the step.
     pub time_step: f64,
+    /// The side of a voxel, in which moves are judged.
+    pub spacing: f64,
     /// Vertices.
     pub vertices: usize,
     /// The area of the surface.
@@ -42,7 +44,7 @@ pub struct Measures {
 
 impl Measures {
     /// The names of the columns of [`Measures::to_csv`].
-    pub const CSV_HEADER: &'static str = "stage,step,time_step,vertices,area,volume,least_area,\
+    pub const CSV_HEADER: &'static str = "stage,step,time_step,spacing,vertices,area,volume,least_area,\
         greatest_area,area_variation,least_angle,greatest_angle,largest_move,largest_normal_move,\
         potential_iterations,motion_iterations,seconds";
 
@@ -51,6 +53,7 @@ impl Measures {
         stage: usize,
         step: u64,
         report: &StepReport,
+        spacing: f64,
         seconds: f64,
     ) -> Self {
         let quality = quality(mesh.into(), &AngleBounds::default());
@@ -59,6 +62,7 @@ impl Measures {
             stage,
             step,
             time_step: report.time_step,
+            spacing,
             vertices: mesh.positions().len(),
             area: area(mesh.into()),
             volume: signed_volume(mesh.into()),
@@ -81,6 +85,7 @@ impl Measures {
             stage,
             step,
             time_step,
+            spacing,
             vertices,
             area,
             volume,
@@ -96,7 +101,7 @@ impl Measures {
             seconds,
         } = self;
         format!(
-            "{stage},{step},{time_step},{vertices},{area},{volume},{least_area},{greatest_area},\
+            "{stage},{step},{time_step},{spacing},{vertices},{area},{volume},{least_area},{greatest_area},\
              {area_variation},{least_angle},{greatest_angle},{largest_move},{largest_normal_move},\
              {potential_iterations},{motion_iterations},{seconds:.3}"
         )

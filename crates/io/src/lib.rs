@@ -50,4 +50,6 @@ pub use read::{
 };
 pub use report::{Note, ReadReport, WriteReport};
 pub use volume::{VolumeFormat, write_tetrahedra};
-pub use write::{Encoding, Overwrite, Pixels, WriteOptions, write_mesh, write_png, write_points};
+pub use write::{
+    Encoding, Overwrite, Pixels, WriteOptions, write_mesh, write_png, write_points, write_text,
+};

@@ -219,6 +219,19 @@ pub fn write_png(
     sink.finish()
 }
 
+/// Writes text, such as a table, whatever the extension of `path`. Returns its size in bytes.
+///
+/// The file appears under its name at once and complete, or not at all.
+pub fn write_text(
+    path: impl AsRef<Path>,
+    text: &str,
+    options: &WriteOptions,
+) -> Result<u64, Error> {
+    let mut sink = Sink::create(path.as_ref(), options.overwrite, options.progress, 1)?;
+    sink.put(text.as_bytes())?;
+    sink.finish()
+}
+
 /// Positions farther from the origin than so many times their extent are shifted before rounding: nearer
 /// ones lose two bits at most by staying where they are.
 const FAR: f64 = 4.0;

@@ -3,10 +3,13 @@
 pub mod compare;
 pub mod convert;
 pub mod delaunay;
+pub mod evolve;
 pub mod info;
 pub mod normals;
 pub mod reconstruct;
+pub mod remesh;
 pub mod render;
+pub mod smooth;
 
 use crate::arguments::{Global, Verb};
 use crate::failure::Failure;
@@ -15,6 +18,7 @@ use crate::progress::Watch;
 use pellicle::delaunay::{Options, Tetrahedralization, tetrahedralize_with};
 use pellicle::geometry::{DVec3, PointCloud};
 use pellicle::io::{self, Content, Format, ReadOptions};
+use pellicle::mesh::{MeshError, TriMesh};
 use std::path::Path;
 
 /// Does what the verb says.
@@ -22,10 +26,13 @@ pub fn run(verb: Verb, global: &Global) -> Result<(), Failure> {
     let watch = Watch::new(global);
     match verb {
         Verb::Reconstruct(verb) => verb.run(global, &watch),
+        Verb::Evolve(verb) => verb.run(global, &watch),
         Verb::Delaunay(verb) => verb.run(global, &watch),
         Verb::Info(verb) => verb.run(global, &watch),
         Verb::Convert(verb) => verb.run(global, &watch),
         Verb::Normals(verb) => verb.run(global, &watch),
+        Verb::Smooth(verb) => verb.run(global, &watch),
+        Verb::Remesh(verb) => verb.run(global, &watch),
         Verb::Compare(verb) => verb.run(global, &watch),
         Verb::Render(verb) => verb.run(global, &watch),
     }
@@ -43,6 +50,22 @@ fn read_points(path: &Path, watch: &Watch) -> Result<PointCloud, Failure> {
     let read = io::read_points(path, &read_options(watch))?;
     log_notes(path, &read.report.notes);
     Ok(read.cloud)
+}
+
+/// Reads a mesh that is an oriented manifold, and logs what the reader left out.
+fn read_manifold(path: &Path, watch: &Watch) -> Result<TriMesh, Failure> {
+    let read = io::read_mesh(path, &read_options(watch))?;
+    log_notes(path, &read.report.notes);
+    TriMesh::try_from(read.soup).map_err(mesh_failure(path))
+}
+
+/// The failure of something done with the mesh of a file.
+fn mesh_failure(path: &Path) -> impl Fn(MeshError) -> Failure + use<> {
+    let path = path.to_owned();
+    move |reason| Failure::Mesh {
+        path: path.clone(),
+        reason,
+    }
 }
 
 /// Reads points or a mesh, and logs what the reader left out.

@@ -1,5 +1,6 @@
 //! `pellicle reconstruct`.
 
+use super::evolve::Evolve;
 use crate::arguments::{Global, Target};
 use crate::failure::Failure;
 use crate::output;
@@ -13,11 +14,13 @@ use std::path::PathBuf;
 const EXAMPLE: &str = "\
 Examples:
   pellicle reconstruct scan.xyz -o mesh.ply
-  pellicle reconstruct noisy.ply -o closed.obj --method tight-cocone";
+  pellicle reconstruct sparse.ply -o closed.obj --method tight-cocone
+  pellicle reconstruct noisy.ply -o smooth.ply --method evolution";
 
 /// Reconstructs a surface from points.
 ///
-/// The mesh's vertices are points of the input, unmoved. Normals are not needed and not used.
+/// The mesh's vertices are points of the input, unmoved, but for the method evolution, which is the verb evolve with its
+/// defaults. Normals are not needed and not used.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Reconstruct {
@@ -26,7 +29,7 @@ pub struct Reconstruct {
     input: PathBuf,
     #[command(flatten)]
     target: Target,
-    /// How the surface is chosen among the Delaunay triangles
+    /// How the surface is found: the first two choose among the Delaunay triangles
     #[arg(long, value_name = "METHOD", default_value = "cocone")]
     method: Method,
 }
@@ -37,6 +40,8 @@ enum Method {
     Cocone,
     /// Always closed: the boundary of a solid
     TightCocone,
+    /// A closed surface that shrinks onto the points: for noise, outliers and gaps
+    Evolution,
 }
 
 #[derive(Serialize)]
@@ -78,14 +83,18 @@ impl From<&cocone::Component> for Component {
 impl Reconstruct {
     /// Reads points, tetrahedralises, reconstructs, writes.
     pub fn run(self, global: &Global, watch: &Watch) -> Result<(), Failure> {
+        let method = match self.method {
+            Method::Cocone => cocone::Method::Cocone,
+            Method::TightCocone => cocone::Method::TightCocone,
+            Method::Evolution => {
+                return Evolve::with_defaults(self.input, self.target).run(global, watch);
+            }
+        };
         self.target.check(Content::Mesh)?;
         let cloud = super::read_points(&self.input, watch)?;
         let tetrahedralization = super::tetrahedralize(&self.input, cloud.positions(), watch)?;
         let mut options = cocone::Options::default();
-        options.method = match self.method {
-            Method::Cocone => cocone::Method::Cocone,
-            Method::TightCocone => cocone::Method::TightCocone,
-        };
+        options.method = method;
         let reconstruction =
             reconstruct_with(&tetrahedralization, &options, watch).map_err(|reason| {
                 Failure::Cocone {
@@ -110,9 +119,10 @@ impl Reconstruct {
                 "{} of {} points found no place in the surface: the sample is sparse or noisy there{}",
                 cloud.len() - report.used,
                 cloud.len(),
-                match self.method {
-                    Method::Cocone => "; `--method tight-cocone` closes what is left open",
-                    Method::TightCocone => "",
+                match method {
+                    cocone::Method::Cocone =>
+                        "; `--method tight-cocone` closes what is left open, `--method evolution` smooths noise",
+                    cocone::Method::TightCocone => "; `--method evolution` smooths noise",
                 }
             );
         }

@@ -1,0 +1,384 @@
+//! `pellicle evolve`.
+
+use crate::arguments::{Global, Target, not_negative, number};
+use crate::failure::Failure;
+use crate::progress::Watch;
+use crate::snapshots::{Kept, Snapshots};
+use crate::surface::Surface;
+use crate::{interrupt, output};
+use clap::{Args, ValueEnum};
+use pellicle::evolution::{
+    Error, Evolved, Initial, Measures, Options, Outliers, Schedule, Stage, evolve_with,
+};
+use pellicle::geometry::{DVec3, Progress};
+use pellicle::io::{Content, write_mesh, write_text};
+use pellicle::mesh::{DistanceOptions, MeshView, TriMesh, distances};
+use serde::Serialize;
+use std::num::NonZeroU64;
+use std::ops::ControlFlow;
+use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+const EXAMPLE: &str = "\
+Examples:
+  pellicle evolve scan.xyz -o surface.ply
+  pellicle evolve noisy.ply -o surface.ply --diffusion 0.4 --smooth 10
+  pellicle evolve scan.xyz -o surface.ply --snapshots frames --every 5 --csv measures.csv
+
+A voxel is the side of a cell of the grid that the distance to the points is known on: the longest side of the box \
+around the points and the surface at the start, divided by --grid. Volume and area are in the units of the cloud.
+
+After Ctrl-C there is no OUT, but the snapshots so far are complete.";
+
+/// Evolves a closed surface onto points.
+///
+/// A surface around the points shrinks onto them, and keeps well shaped triangles while it moves. The points may be
+/// noisy or uneven, may have outliers, and may miss a part. The result is closed, of the same genus as the surface at the
+/// start: a sphere's, unless --initial gives another.
+#[derive(Debug, Args)]
+#[command(after_help = EXAMPLE)]
+pub struct Evolve {
+    /// The points: any point or mesh format
+    #[arg(value_name = "CLOUD")]
+    input: PathBuf,
+    #[command(flatten)]
+    target: Target,
+    /// Voxels along the longest side: more resolve finer shapes, and take more time and memory
+    #[arg(
+        long,
+        value_name = "VOXELS",
+        default_value_t = Options::default().resolution,
+        value_parser = clap::value_parser!(u32).range(4..=1 << 20)
+    )]
+    grid: u32,
+    /// Other stages than the adaptive ones, which go from coarse to fine until the surface rests
+    #[arg(long, value_name = "NAME")]
+    preset: Option<Preset>,
+    /// How far distances are blurred (sigma), in voxels: at most 16. By default 1, or the points' noise if that is more
+    #[arg(long, value_name = "VOXELS", value_parser = sigma)]
+    sigma: Option<f64>,
+    /// Diffusion relative to advection: more carries the surface past outliers and over gaps, and off thin limbs
+    ///
+    /// By default 0.1, or 1/3 in the paper's preset. The paper has 0.4 against outliers and missing parts.
+    #[arg(long, value_name = "RATIO", value_parser = not_negative)]
+    diffusion: Option<f64>,
+    /// Let outliers count, instead of leaving out points that stand alone
+    #[arg(long)]
+    keep_outliers: bool,
+    /// Steps of mean curvature flow at the end; they keep the volume. The paper's preset has 25 that do not
+    #[arg(long, value_name = "STEPS")]
+    smooth: Option<u32>,
+    /// Start from this mesh, which must be closed, enclose the points and not intersect itself; else from an ellipsoid
+    #[arg(long, value_name = "MESH")]
+    initial: Option<PathBuf>,
+    /// Write numbered meshes into this folder, an animation evolution.glb, and pictures side by side, evolution.png
+    #[arg(long, value_name = "DIR")]
+    snapshots: Option<PathBuf>,
+    /// Steps from one snapshot to the next
+    #[arg(
+        long,
+        value_name = "STEPS",
+        default_value = "10",
+        requires = "snapshots"
+    )]
+    every: NonZeroU64,
+    /// Write the measures of every step as a table
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Preset {
+    /// The stages of figures 6 to 10 of Daniel 2015: 95 steps with 2,562 vertices, 25 of smoothing; sigma is 1, and
+    /// outliers count
+    Paper,
+}
+
+#[derive(Serialize)]
+struct Done {
+    input: PathBuf,
+    output: PathBuf,
+    points: usize,
+    points_left_out: usize,
+    #[serde(flatten)]
+    surface: Surface,
+    /// The side of a voxel, in the units of the cloud.
+    voxel: f64,
+    /// In voxels.
+    sigma: f64,
+    /// The points' estimated noise.
+    noise: f64,
+    steps: u64,
+    /// None where a number of steps was asked for, not rest.
+    at_rest: Option<bool>,
+    /// Of all points from the surface, outliers included.
+    mean_distance: f64,
+    mean_distance_voxels: f64,
+    greatest_distance: f64,
+    snapshots: Option<Kept>,
+    csv: Option<PathBuf>,
+    bytes: u64,
+}
+
+impl Evolve {
+    /// As without any option.
+    pub fn with_defaults(input: PathBuf, target: Target) -> Self {
+        Self {
+            input,
+            target,
+            grid: Options::default().resolution,
+            preset: None,
+            sigma: None,
+            diffusion: None,
+            keep_outliers: false,
+            smooth: None,
+            initial: None,
+            snapshots: None,
+            every: NonZeroU64::MIN,
+            csv: None,
+        }
+    }
+
+    /// Reads points, evolves, writes.
+    pub fn run(self, global: &Global, watch: &Watch) -> Result<(), Failure> {
+        self.target.check(Content::Mesh)?;
+        if let Some(path) = &self.csv {
+            output::check_place(path, self.target.force)?;
+        }
+        let folder = self.snapshots.as_deref();
+        let snapshots = folder
+            .map(|folder| Snapshots::new(folder, self.every.get(), self.target.force, watch))
+            .transpose()?;
+        let cloud = super::read_points(&self.input, watch)?;
+        let options = self.options(watch)?;
+
+        let mut record = Record::new(snapshots, self.csv.is_some(), watch);
+        let evolved = record
+            .evolve(cloud.positions(), &options)
+            .map_err(|failure| self.explain(failure))?;
+        let mesh = &evolved.mesh;
+        let write_options = self.target.options(watch);
+        let written = self
+            .target
+            .write(|| write_mesh(&self.target.output, mesh, None, &write_options))?;
+        if let Some(path) = &self.csv {
+            interrupt::while_writing(|| write_text(path, &record.table, &write_options))?;
+        }
+        let steps = evolved.report.steps;
+        let snapshots = record
+            .snapshots
+            .map(|snapshots| snapshots.finish(steps, mesh))
+            .transpose()?;
+
+        let done = self.done(cloud.positions(), &evolved, snapshots, written.bytes, watch)?;
+        done.log();
+        output::report(global, &done)
+    }
+
+    fn options(&self, watch: &Watch) -> Result<Options, Failure> {
+        let mut options = Options {
+            resolution: self.grid,
+            sigma: self.sigma,
+            smoothing: self.smooth.unwrap_or(0),
+            ..Options::default()
+        };
+        if let Some(path) = &self.initial {
+            options.initial = Initial::Mesh(super::read_manifold(path, watch)?);
+        }
+        if self.keep_outliers {
+            options.outliers = Outliers::Keep;
+        }
+        if let Some(Preset::Paper) = self.preset {
+            const STRENGTH: f64 = 450.0;
+            let ratio = self.diffusion.unwrap_or(1.0 / 3.0);
+            options.sigma = self.sigma.or(Some(1.0));
+            options.outliers = Outliers::Keep;
+            options.smoothing = 0;
+            options.schedule = Schedule::Stages {
+                levels: 4,
+                stages: Stage::paper(95, 300.0 * ratio, self.smooth.unwrap_or(25), STRENGTH),
+            };
+        } else if let Schedule::Adaptive { diffusion, .. } = &mut options.schedule {
+            *diffusion = self.diffusion.unwrap_or(*diffusion);
+        }
+        Ok(options)
+    }
+
+    /// Names the file that is the reason of a failure.
+    fn explain(&self, failure: Interrupted) -> Failure {
+        let reason = match failure {
+            Interrupted::Own(failure) => return failure,
+            Interrupted::Evolution(reason) => reason,
+        };
+        let path = match (&reason, &self.initial) {
+            (Error::NotClosed { .. }, Some(initial)) => initial,
+            _ => &self.input,
+        };
+        Failure::Evolution {
+            path: path.clone(),
+            reason,
+        }
+    }
+
+    fn done(
+        self,
+        points: &[DVec3],
+        evolved: &Evolved,
+        snapshots: Option<Kept>,
+        bytes: u64,
+        watch: &Watch,
+    ) -> Result<Done, Failure> {
+        let (mesh, report) = (&evolved.mesh, &evolved.report);
+        let failed = super::mesh_failure(&self.target.output);
+        let cloud = MeshView {
+            positions: points,
+            triangles: &[],
+        };
+        let distances =
+            distances(cloud, mesh.into(), &DistanceOptions::default(), watch).map_err(&failed)?;
+        Ok(Done {
+            points: points.len(),
+            points_left_out: report.outliers,
+            surface: Surface::of(mesh, watch).map_err(&failed)?,
+            voxel: report.spacing,
+            sigma: report.sigma,
+            noise: report.noise,
+            steps: report.steps,
+            at_rest: self.preset.is_none().then_some(report.at_rest),
+            mean_distance: distances.mean,
+            mean_distance_voxels: distances.mean / report.spacing,
+            greatest_distance: distances.max,
+            snapshots,
+            csv: self.csv,
+            input: self.input,
+            output: self.target.output,
+            bytes,
+        })
+    }
+}
+
+fn sigma(text: &str) -> Result<f64, String> {
+    number(
+        text,
+        |value| (0.0..=16.0).contains(&value),
+        "must be from 0 to 16 voxels",
+    )
+}
+
+impl Done {
+    fn log(&self) {
+        tracing::info!(
+            "{} points, {} left out as outliers; a voxel is {}, sigma is {:.2} voxels",
+            self.points,
+            self.points_left_out,
+            output::digits(self.voxel),
+            self.sigma
+        );
+        self.surface.log();
+        tracing::info!(
+            "{} steps{}; the mean distance of all points from the surface is {} ({:.3} voxels)",
+            self.steps,
+            if self.at_rest == Some(true) {
+                ", and at rest"
+            } else {
+                ""
+            },
+            output::digits(self.mean_distance),
+            self.mean_distance_voxels
+        );
+        if self.at_rest == Some(false) {
+            tracing::warn!(
+                "the surface is still moving: its steps ran out before it came to rest; see the largest move in a \
+                 table of --csv"
+            );
+        }
+    }
+}
+
+/// What is kept of an evolution while it runs.
+struct Record<'a> {
+    watch: &'a Watch,
+    snapshots: Option<Snapshots<'a>>,
+    wants_table: bool,
+    table: String,
+    failure: Option<Failure>,
+}
+
+/// Why an evolution ended early.
+enum Interrupted {
+    /// A snapshot was not written.
+    Own(Failure),
+    /// The evolution itself.
+    Evolution(Error),
+}
+
+impl<'a> Record<'a> {
+    fn new(snapshots: Option<Snapshots<'a>>, wants_table: bool, watch: &'a Watch) -> Self {
+        Self {
+            watch,
+            snapshots,
+            wants_table,
+            table: format!("{}\n", Measures::CSV_HEADER),
+            failure: None,
+        }
+    }
+
+    fn evolve(&mut self, points: &[DVec3], options: &Options) -> Result<Evolved, Interrupted> {
+        let observer = Observer {
+            watch: self.watch,
+            moving: AtomicBool::new(false),
+            failed: AtomicBool::new(false),
+        };
+        let evolved = evolve_with(points, options, &observer, &mut |measures, mesh| {
+            observer.moving.store(true, Relaxed);
+            observer
+                .failed
+                .fetch_or(!self.step(measures, mesh), Relaxed);
+        });
+        match self.failure.take() {
+            Some(failure) => Err(Interrupted::Own(failure)),
+            None => evolved.map_err(Interrupted::Evolution),
+        }
+    }
+
+    /// Whether all went well.
+    fn step(&mut self, measures: &Measures, mesh: &TriMesh) -> bool {
+        self.watch.tell(|| {
+            format!(
+                "evolve: stage {}, step {}, move {:.4} voxels, volume {:.6e}",
+                measures.stage + 1,
+                measures.step,
+                measures.largest_move / measures.spacing,
+                measures.volume
+            )
+        });
+        if self.wants_table {
+            self.table.push_str(&measures.to_csv());
+            self.table.push('\n');
+        }
+        if let (Some(snapshots), None) = (&mut self.snapshots, &self.failure) {
+            self.failure = snapshots.step(measures.step, mesh).err();
+        }
+        self.failure.is_none()
+    }
+}
+
+/// Shows the stages before the surface moves, and stops where a snapshot was not written.
+struct Observer<'a> {
+    watch: &'a Watch,
+    moving: AtomicBool,
+    failed: AtomicBool,
+}
+
+impl Progress for Observer<'_> {
+    fn step(&self, stage: &'static str, done: u64, total: u64) -> ControlFlow<()> {
+        if self.failed.load(Relaxed) || interrupt::requested() {
+            ControlFlow::Break(())
+        } else if self.moving.load(Relaxed) {
+            // The line of the last step stays.
+            ControlFlow::Continue(())
+        } else {
+            self.watch.step(stage, done, total)
+        }
+    }
+}
