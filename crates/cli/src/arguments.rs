@@ -24,28 +24,18 @@ pub struct Arguments {
 
 const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 interrupted.";
 
-/// The verbs.
+/// The verbs; each is described where its arguments are.
 #[derive(Debug, Subcommand)]
 pub enum Verb {
-    /// Reconstruct a surface from points
     Reconstruct(Reconstruct),
-    /// Evolve a closed surface onto points, noisy or with gaps
     Evolve(Evolve),
-    /// Write the Delaunay tetrahedra of points, or their hull
     Delaunay(Delaunay),
-    /// Say what a file holds: points, or a mesh and its defects
     Info(Info),
-    /// Convert between formats
     Convert(Convert),
-    /// Estimate an oriented normal at every point
     Normals(Normals),
-    /// Smooth a closed mesh by mean curvature flow
     Smooth(Smooth),
-    /// Give a mesh new triangles, even and well shaped
     Remesh(Remesh),
-    /// Measure the distance between two surfaces
     Compare(Compare),
-    /// Draw a mesh or points, from several sides, on one sheet
     Render(Render),
 }
 

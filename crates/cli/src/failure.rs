@@ -75,6 +75,12 @@ pub enum Failure {
         /// The extensions that it can write.
         known: String,
     },
+    /// Two results were to be written to one file.
+    #[error("{}: is named for two results", .path.display())]
+    SameOutput {
+        /// The file.
+        path: PathBuf,
+    },
     /// Standard output was not written.
     #[error("standard output cannot be written: {0}")]
     StandardOutput(std::io::Error),
@@ -133,6 +139,14 @@ impl Failure {
                 }
                 _ => return None,
             },
+            Self::Evolution {
+                reason:
+                    evolution::Error::NotFinite { .. }
+                    | evolution::Error::Linear(_)
+                    | evolution::Error::Collapsed { .. },
+                ..
+            } => "with --snapshots DIR the surfaces up to that step are kept",
+            Self::SameOutput { .. } => "name different files",
             _ => return None,
         })
     }

@@ -132,6 +132,7 @@ fn nothing_is_overwritten_without_force() {
         ("delaunay", "out.off"),
         ("convert", "out.csv"),
         ("normals", "out.ply"),
+        ("evolve", "out.ply"),
         ("render", "out.png"),
     ] {
         let folder = tempdir().unwrap();
@@ -162,6 +163,9 @@ fn what_a_format_cannot_hold_is_said_before_the_work() {
     for (arguments, expected) in [
         (["reconstruct", &half, "-o", "out.xyz"], "ply"),
         (["reconstruct", &half, "-o", "out"], "extension"),
+        (["evolve", &half, "-o", "out.xyz"], "ply"),
+        (["smooth", &half, "-o", "out.xyz"], "ply"),
+        (["remesh", &half, "-o", "out.pcd"], "ply"),
         (["delaunay", &half, "-o", "out.xyz"], "vtk"),
         (["normals", &half, "-o", "out.stl"], "ply"),
         (["render", &half, "-o", "out.jpg"], "png"),
@@ -218,6 +222,7 @@ fn a_full_disk_is_an_error() {
         &["convert", &half, "-o", "full.ply", "--force"][..],
         &["render", &half, "-o", "full.png", "--force"],
         &["delaunay", &half, "-o", "full.vtk", "--force"],
+        &["evolve", &half, "-o", "full.off", "--force"],
     ] {
         // A link with an extension, since the device has none.
         let link = folder.path().join(arguments[3]);
@@ -367,6 +372,47 @@ fn ctrl_c_stops_within_a_second_and_leaves_no_half_file() {
         }
         for out in ["out.vtk", "out.ply", "out.csv"] {
             let _ = std::fs::remove_file(folder.path().join(out));
+        }
+    }
+}
+
+#[test]
+#[cfg(unix)]
+fn ctrl_c_leaves_the_snapshots_so_far_and_nothing_else() {
+    let folder = tempdir().unwrap();
+    // At first while the grid is made, then while the surface moves.
+    for (delay, moving) in [(300, false), (6000, true)] {
+        let mut child = Command::new(env!("CARGO_BIN_EXE_pellicle"))
+            .args(["evolve", &fixture("kitten.xyz"), "-o", "out.ply"])
+            .args(["--grid", if moving { "150" } else { "300" }])
+            .args(["--smooth", "100000", "--csv", "out.csv"])
+            .args(["--snapshots", "frames", "--every", "3", "--force"])
+            .current_dir(folder.path())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        std::thread::sleep(Duration::from_millis(delay));
+        interrupt(&child);
+        let pressed = Instant::now();
+        let status = child.wait().unwrap();
+        let took = pressed.elapsed();
+        assert_eq!(status.code(), Some(130), "{moving}");
+        assert!(took < Duration::from_secs(1), "{moving}: {took:?}");
+        if !moving {
+            assert!(names(folder.path()).is_empty());
+            continue;
+        }
+        assert_eq!(names(folder.path()), ["frames"]);
+        let frames = folder.path().join("frames");
+        let kept = names(&frames);
+        assert!(kept.len() > 2, "{kept:?}");
+        for name in kept {
+            assert!(
+                name.starts_with("step-") && name.ends_with(".ply"),
+                "{name}"
+            );
+            let info = stdout(&pellicle(&frames).args(["info", &name]).assert().success());
+            assert!(info.contains("closed              yes"), "{name}: {info}");
         }
     }
 }

@@ -2,21 +2,12 @@
 
 mod common;
 
-use common::{fixture, pellicle, stderr, stdout};
+use common::{fixture, json, manifold, pellicle, stderr, stdout};
 use pellicle::io::{Data, ReadOptions, read};
 use pellicle::mesh::TriMesh;
 use serde_json::Value;
 use std::path::Path;
 use tempfile::tempdir;
-
-fn json(folder: &Path, arguments: &[&str]) -> Value {
-    let assert = pellicle(folder)
-        .args(arguments)
-        .arg("--json")
-        .assert()
-        .success();
-    serde_json::from_str(&stdout(&assert)).unwrap()
-}
 
 fn data(path: &Path) -> Data {
     read(path, &ReadOptions::default()).unwrap().data
@@ -44,21 +35,9 @@ fn reconstruct_makes_closed_manifolds_of_a_torus_and_of_a_real_scan() {
             };
             assert_eq!(done["triangles"], soup.triangles.len());
             assert!(TriMesh::try_from(soup).unwrap().is_closed());
-            assert_manifold(&json(folder.path(), &["info", "out.ply"]), 1);
+            manifold(&json(folder.path(), &["info", "out.ply"]), 1);
         }
     }
-}
-
-/// One closed, oriented manifold of this genus, without self-intersections, facing outwards.
-fn assert_manifold(info: &Value, genus: u64) {
-    for key in ["closed", "edge_manifold", "vertex_manifold", "oriented"] {
-        assert_eq!(info[key], true, "{key}");
-    }
-    assert_eq!(info["genus"], genus);
-    for (key, value) in [("components", 1), ("borders", 0), ("self_intersections", 0)] {
-        assert_eq!(info[key], value, "{key}");
-    }
-    assert!(info["volume"].as_f64().unwrap() > 0.0);
 }
 
 #[test]
@@ -361,6 +340,7 @@ fn every_verb_reports_as_json() {
         ("convert", "c.ply"),
         ("normals", "n.ply"),
         ("render", "p.png"),
+        ("evolve", "e.ply"),
     ] {
         let done = json(folder.path(), &[verb, &kitten, "-o", out]);
         assert_eq!(done["output"], out, "{verb}");

@@ -18,7 +18,7 @@ Distances run from the vertices of one file, and from points spread evenly over 
 the other. The greatest is taken over both, mean and RMS over the points on the triangles (or the vertices, where there
 are no triangles). Points are chosen the same way each time.";
 
-/// Measures the distance between two meshes or clouds, each way.
+/// Measure the distance between two meshes or clouds, each way
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Compare {

@@ -15,7 +15,7 @@ Example:
 
 Reads ply, xyz, pts, pwn, csv, pcd, las, laz, off, obj, stl, gltf and glb.";
 
-/// Converts between formats: points stay points, a mesh stays a mesh.
+/// Convert between formats: points stay points, a mesh stays a mesh
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Convert {

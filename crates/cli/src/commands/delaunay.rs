@@ -18,7 +18,7 @@ Example:
 An output with the extension vtk or mesh (Medit) holds the tetrahedra over all points of the input, in their order;
 one with the extension of a mesh format holds the hull, or every facet.";
 
-/// Writes the Delaunay tetrahedra of points, or their hull.
+/// Write the Delaunay tetrahedra of points, or their hull
 ///
 /// The tetrahedra depend on the set of points alone, however degenerate: cospherical points are told apart by a
 /// symbolic perturbation in lexicographic order.

@@ -28,9 +28,10 @@ Examples:
 A voxel is the side of a cell of the grid that the distance to the points is known on: the longest side of the box \
 around the points and the surface at the start, divided by --grid. Volume and area are in the units of the cloud.
 
-After Ctrl-C there is no OUT, but the snapshots so far are complete.";
+An evolution that fails leaves no OUT, but its table, and its snapshots with the last good surface among them. Ctrl-C \
+leaves the snapshots so far.";
 
-/// Evolves a closed surface onto points.
+/// Evolve a closed surface onto points, noisy or with gaps
 ///
 /// A surface around the points shrinks onto them, and keeps well shaped triangles while it moves. The points may be
 /// noisy or uneven, may have outliers, and may miss a part. The result is closed, of the same genus as the surface at the
@@ -143,6 +144,9 @@ impl Evolve {
     pub fn run(self, global: &Global, watch: &Watch) -> Result<(), Failure> {
         self.target.check(Content::Mesh)?;
         if let Some(path) = &self.csv {
+            if *path == self.target.output {
+                return Err(Failure::SameOutput { path: path.clone() });
+            }
             output::check_place(path, self.target.force)?;
         }
         let folder = self.snapshots.as_deref();
@@ -153,26 +157,40 @@ impl Evolve {
         let options = self.options(watch)?;
 
         let mut record = Record::new(snapshots, self.csv.is_some(), watch);
-        let evolved = record
-            .evolve(cloud.positions(), &options)
-            .map_err(|failure| self.explain(failure))?;
+        let evolved = match record.evolve(cloud.positions(), &options) {
+            Ok(evolved) => evolved,
+            Err(Ended::Record(failure)) => return Err(failure),
+            Err(Ended::Evolution(reason)) => {
+                let failure = self.explain(reason);
+                if record.steps > 0 && !failure.is_interruption() {
+                    self.keep(record, None)?;
+                }
+                return Err(failure);
+            }
+        };
         let mesh = &evolved.mesh;
-        let write_options = self.target.options(watch);
         let written = self
             .target
-            .write(|| write_mesh(&self.target.output, mesh, None, &write_options))?;
-        if let Some(path) = &self.csv {
-            interrupt::while_writing(|| write_text(path, &record.table, &write_options))?;
-        }
-        let steps = evolved.report.steps;
-        let snapshots = record
-            .snapshots
-            .map(|snapshots| snapshots.finish(steps, mesh))
-            .transpose()?;
+            .write(|| write_mesh(&self.target.output, mesh, None, &self.target.options(watch)))?;
+        let snapshots = self.keep(record, Some(mesh))?;
 
         let done = self.done(cloud.positions(), &evolved, snapshots, written.bytes, watch)?;
         done.log();
         output::report(global, &done)
+    }
+
+    /// Writes the table, and puts the snapshots together, of which the result, or else the last good surface, is the last.
+    fn keep(&self, record: Record, result: Option<&TriMesh>) -> Result<Option<Kept>, Failure> {
+        let options = self.target.options(record.watch);
+        if let Some(path) = &self.csv {
+            interrupt::while_writing(|| write_text(path, &record.table, &options))?;
+        }
+        match (record.snapshots, record.last) {
+            (Some(snapshots), Some((step, last))) => {
+                snapshots.finish(step, result.unwrap_or(&last)).map(Some)
+            }
+            _ => Ok(None),
+        }
     }
 
     fn options(&self, watch: &Watch) -> Result<Options, Failure> {
@@ -189,14 +207,13 @@ impl Evolve {
             options.outliers = Outliers::Keep;
         }
         if let Some(Preset::Paper) = self.preset {
-            const STRENGTH: f64 = 450.0;
-            let ratio = self.diffusion.unwrap_or(1.0 / 3.0);
+            let diffusion = self.diffusion.map_or(100.0, |ratio| 300.0 * ratio);
             options.sigma = self.sigma.or(Some(1.0));
             options.outliers = Outliers::Keep;
             options.smoothing = 0;
             options.schedule = Schedule::Stages {
                 levels: 4,
-                stages: Stage::paper(95, 300.0 * ratio, self.smooth.unwrap_or(25), STRENGTH),
+                stages: Stage::paper(95, diffusion, self.smooth.unwrap_or(25), 450.0),
             };
         } else if let Schedule::Adaptive { diffusion, .. } = &mut options.schedule {
             *diffusion = self.diffusion.unwrap_or(*diffusion);
@@ -205,11 +222,7 @@ impl Evolve {
     }
 
     /// Names the file that is the reason of a failure.
-    fn explain(&self, failure: Interrupted) -> Failure {
-        let reason = match failure {
-            Interrupted::Own(failure) => return failure,
-            Interrupted::Evolution(reason) => reason,
-        };
+    fn explain(&self, reason: Error) -> Failure {
         let path = match (&reason, &self.initial) {
             (Error::NotClosed { .. }, Some(initial)) => initial,
             _ => &self.input,
@@ -301,13 +314,16 @@ struct Record<'a> {
     snapshots: Option<Snapshots<'a>>,
     wants_table: bool,
     table: String,
+    steps: u64,
+    /// The surface after the last step, where there are snapshots.
+    last: Option<(u64, TriMesh)>,
     failure: Option<Failure>,
 }
 
 /// Why an evolution ended early.
-enum Interrupted {
+enum Ended {
     /// A snapshot was not written.
-    Own(Failure),
+    Record(Failure),
     /// The evolution itself.
     Evolution(Error),
 }
@@ -319,11 +335,13 @@ impl<'a> Record<'a> {
             snapshots,
             wants_table,
             table: format!("{}\n", Measures::CSV_HEADER),
+            steps: 0,
+            last: None,
             failure: None,
         }
     }
 
-    fn evolve(&mut self, points: &[DVec3], options: &Options) -> Result<Evolved, Interrupted> {
+    fn evolve(&mut self, points: &[DVec3], options: &Options) -> Result<Evolved, Ended> {
         let observer = Observer {
             watch: self.watch,
             moving: AtomicBool::new(false),
@@ -336,8 +354,8 @@ impl<'a> Record<'a> {
                 .fetch_or(!self.step(measures, mesh), Relaxed);
         });
         match self.failure.take() {
-            Some(failure) => Err(Interrupted::Own(failure)),
-            None => evolved.map_err(Interrupted::Evolution),
+            Some(failure) => Err(Ended::Record(failure)),
+            None => evolved.map_err(Ended::Evolution),
         }
     }
 
@@ -352,12 +370,14 @@ impl<'a> Record<'a> {
                 measures.volume
             )
         });
+        self.steps = measures.step;
         if self.wants_table {
             self.table.push_str(&measures.to_csv());
             self.table.push('\n');
         }
         if let (Some(snapshots), None) = (&mut self.snapshots, &self.failure) {
             self.failure = snapshots.step(measures.step, mesh).err();
+            self.last = Some((measures.step, mesh.clone()));
         }
         self.failure.is_none()
     }

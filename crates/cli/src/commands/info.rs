@@ -20,7 +20,7 @@ Example:
 Self-intersections are pairs of triangles that share more than the vertices and edges they have in common, counted
 exactly.";
 
-/// Says what a file holds: points, or a mesh and its defects.
+/// Say what a file holds: points, or a mesh and its defects
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Info {

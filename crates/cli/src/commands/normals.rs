@@ -15,7 +15,7 @@ const EXAMPLE: &str = "\
 Example:
   pellicle normals scan.xyz -o oriented.ply";
 
-/// Estimates an oriented normal at every point.
+/// Estimate an oriented normal at every point
 ///
 /// Normals have length one and point out of the surface. Those that the input has are not used.
 #[derive(Debug, Args)]

@@ -17,7 +17,7 @@ Examples:
   pellicle reconstruct sparse.ply -o closed.obj --method tight-cocone
   pellicle reconstruct noisy.ply -o smooth.ply --method evolution";
 
-/// Reconstructs a surface from points.
+/// Reconstruct a surface from points
 ///
 /// The mesh's vertices are points of the input, unmoved, but for the method evolution, which is the verb evolve with its
 /// defaults. Normals are not needed and not used.

@@ -23,7 +23,7 @@ Examples:
 
 Lengths are in the units of the mesh. Topology stays: components, genus, borders.";
 
-/// Gives a mesh new triangles, even and well shaped.
+/// Give a mesh new triangles, even and well shaped
 ///
 /// Edges are split, collapsed and flipped, and vertices relaxed on the surface, until edges have about the length wanted
 /// and angles are good.

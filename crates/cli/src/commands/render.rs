@@ -17,7 +17,7 @@ Example:
 Triangles seen from behind are purple, borders are orange, edges of three or more triangles are red. The picture is the
 same on every machine.";
 
-/// Draws a mesh or points, from several sides, on one sheet.
+/// Draw a mesh or points, from several sides, on one sheet
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Render {

@@ -17,13 +17,14 @@ const EXAMPLE: &str = "\
 Example:
   pellicle smooth surface.ply -o smooth.ply --steps 5
 
-A step of strength S takes S square mean edges of time in the mean curvature flow. After N steps waves shorter than about \
-2 pi sqrt(N S) mean edges are gone: with the defaults, 6 edges.";
+A step of strength S is S square mean edges of time in the mean curvature flow: N steps take waves down to a third that \
+are 2 pi sqrt(N S) mean edges long, which is three edges with the defaults, and shorter ones further. Tubes thinner than \
+sqrt(2 N S) mean edges in radius pinch off. Where triangles are very uneven, remesh first.";
 
-/// Smooths a closed mesh by mean curvature flow.
+/// Smooth a closed mesh by mean curvature flow
 ///
-/// Vertices move along their normals, faster where the surface bends more; connectivity stays. After each step the surface
-/// is pushed out evenly until it holds the volume that it had.
+/// Vertices move along their normals, faster where the surface bends more, and a little along the surface, for better
+/// angles; connectivity stays. After each step the surface is pushed out evenly until it holds the volume that it had.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Smooth {
@@ -36,7 +37,7 @@ pub struct Smooth {
     #[arg(long, value_name = "N", default_value_t = 10)]
     steps: u32,
     /// How much a step smooths, in squares of the mean edge length
-    #[arg(long, value_name = "S", default_value_t = 0.1, value_parser = positive)]
+    #[arg(long, value_name = "S", default_value_t = 0.02, value_parser = positive)]
     strength: f64,
     /// Let the volume shrink, as it does in the mean curvature flow, instead of keeping it
     #[arg(long)]
@@ -93,7 +94,11 @@ impl Smooth {
             advection: 0.0,
             diffusion: self.strength * mean_edge * mean_edge,
             time_step: 1.0,
-            redistribution: Redistribution::None,
+            // Areas keep their ratios, so that small triangles may stay small.
+            redistribution: Redistribution::AngleAware {
+                omega: 0.0,
+                omega_angles: 0.2,
+            },
             ..StepOptions::default()
         };
         let mut evolution = Evolution::new(mesh)?;

@@ -3,6 +3,7 @@
 
 use assert_cmd::Command;
 use assert_cmd::assert::Assert;
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// The binary, to be run in `folder`.
@@ -34,6 +35,28 @@ pub fn stdout(assert: &Assert) -> String {
 /// What was written to standard error.
 pub fn stderr(assert: &Assert) -> String {
     String::from_utf8(assert.get_output().stderr.clone()).unwrap()
+}
+
+/// What a run says as JSON.
+pub fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let assert = pellicle(folder)
+        .args(arguments)
+        .arg("--json")
+        .assert()
+        .success();
+    serde_json::from_str(&stdout(&assert)).unwrap()
+}
+
+/// What `info` says is one closed, oriented manifold of this genus, without self-intersections, facing outwards.
+pub fn manifold(info: &Value, genus: u64) {
+    for key in ["closed", "edge_manifold", "vertex_manifold", "oriented"] {
+        assert_eq!(info[key], true, "{key}");
+    }
+    assert_eq!(info["genus"], genus);
+    for (key, value) in [("components", 1), ("borders", 0), ("self_intersections", 0)] {
+        assert_eq!(info[key], value, "{key}");
+    }
+    assert!(info["volume"].as_f64().unwrap() > 0.0);
 }
 
 /// The names in a folder, sorted.
