@@ -21,6 +21,8 @@ usage: cargo xtask <task>
   picture the README's commands, and the picture that they make
   bench --table                     every fixture reconstructed: docs/benchmarks/fixtures.md
   bench --delaunay [KIND:COUNT …]   against CGAL, if installed: docs/benchmarks/delaunay.md
+  bench --evolution                 shapes and scans, beside others that are installed, and times:
+                                    docs/benchmarks/evolution.md; PELLICLE_PYTHON names a python with open3d
 ";
 
 fn main() -> ExitCode {

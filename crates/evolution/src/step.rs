@@ -12,6 +12,7 @@ use crate::velocity;
 use glam::DVec3;
 use pellicle_geometry::{VertexId, first_not_finite};
 use pellicle_mesh::{TriMesh, signed_volume};
+use tracing::trace_span;
 
 /// The parameters of a step, in the units of the coordinates and a unit of time of the caller's choice.
 #[derive(Clone, Debug, PartialEq)]
@@ -148,7 +149,7 @@ impl Evolution {
 
     /// One step. After an error the surface stands where it stood before.
     ///
-    /// Linear in the number of vertices but for the solvers.
+    /// Linear in the number of vertices but for the solvers. Its parts are spans of `tracing`, at the level of a trace.
     ///
     /// # Errors
     ///
@@ -156,9 +157,11 @@ impl Evolution {
     pub fn step(&mut self, field: &dyn Field, options: &StepOptions) -> Result<StepReport, Error> {
         // 1. Measure the surface, and the field at its vertices.
         let positions = self.mesh.positions();
-        self.volumes.measure(&self.rings, positions);
-        fill(&mut self.samples, positions.len(), |i| {
-            field.sample(positions[i])
+        trace_span!("measure").in_scope(|| self.volumes.measure(&self.rings, positions));
+        trace_span!("sample").in_scope(|| {
+            fill(&mut self.samples, positions.len(), |i| {
+                field.sample(positions[i])
+            });
         });
 
         // 2. The normal velocity, as a speed along N from advection, and as w_d d h from diffusion.
@@ -169,7 +172,8 @@ impl Evolution {
             .collect();
 
         // 3. The tangential velocity.
-        let potential = self.redistribute(&advection, options)?;
+        let potential =
+            trace_span!("redistribute").in_scope(|| self.redistribute(&advection, options))?;
 
         // 4. The step in time that no vertex goes too far in; half as far along the surface.
         let reach = self.reach();
@@ -188,14 +192,16 @@ impl Evolution {
             volumes.areas[i] * (positions[i] + tau * motion)
         });
         let mut moved = positions.to_vec();
-        let motion = self.systems.solve_motion(
-            &self.rings,
-            volumes,
-            |i| tau * w_d * samples[i].value,
-            &right_side,
-            &mut moved,
-            &options.motion_solver,
-        )?;
+        let motion = trace_span!("solve for the positions").in_scope(|| {
+            self.systems.solve_motion(
+                &self.rings,
+                volumes,
+                |i| tau * w_d * samples[i].value,
+                &right_side,
+                &mut moved,
+                &options.motion_solver,
+            )
+        })?;
         if let Some(vertex) = first_not_finite(&moved) {
             return Err(self.not_finite(vertex));
         }
@@ -295,13 +301,15 @@ impl Evolution {
             })
             .collect();
         let right_side = redistribution::right_side(rings, volumes, &q, &shares, omega);
-        let solved = self.systems.solve_potential(
-            rings,
-            volumes,
-            &right_side,
-            &mut self.psi,
-            &options.potential_solver,
-        )?;
+        let solved = trace_span!("solve for ψ").in_scope(|| {
+            self.systems.solve_potential(
+                rings,
+                volumes,
+                &right_side,
+                &mut self.psi,
+                &options.potential_solver,
+            )
+        })?;
         let positions = self.mesh.positions();
         redistribution::gradient_velocity(
             &mut self.tangential,

@@ -18,10 +18,20 @@ pub struct Measured {
 
 /// Runs a program to its end; its standard error is the reason if it fails.
 pub fn run(program: &Path, arguments: &[&str]) -> Result<Measured, String> {
+    run_in(&[], program, arguments)
+}
+
+/// [`run`] with these variables in the program's environment.
+pub fn run_in(
+    environment: &[(&str, &str)],
+    program: &Path,
+    arguments: &[&str],
+) -> Result<Measured, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", program.display());
     let start = Instant::now();
     let mut child = Command::new(program)
         .args(arguments)
+        .envs(environment.iter().copied())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()

@@ -1,6 +1,7 @@
 //! Measurements, and the pages under `docs/benchmarks/` that show them.
 
 mod delaunay;
+mod evolution;
 mod fixtures;
 mod measured;
 
@@ -9,12 +10,13 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// `--table` or `--delaunay …`.
+/// `--table`, `--delaunay …` or `--evolution`.
 pub fn run(root: &Path, arguments: &[&str]) -> Outcome {
     match arguments {
         ["--table"] => fixtures::run(root),
         ["--delaunay", inputs @ ..] => delaunay::run(root, inputs),
-        _ => Err("bench wants --table, or --delaunay [INPUT:COUNT …]".into()),
+        ["--evolution"] => evolution::run(root),
+        _ => Err("bench wants --table, --delaunay [INPUT:COUNT …], or --evolution".into()),
     }
 }
 
