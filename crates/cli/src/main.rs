@@ -41,7 +41,7 @@ fn prepare(global: &Global) -> Result<(), Failure> {
         tracing::Level::INFO
     };
     tracing_subscriber::fmt()
-        .with_writer(std::io::stderr)
+        .with_writer(|| progress::Log)
         .with_max_level(level)
         .with_target(false)
         .without_time()

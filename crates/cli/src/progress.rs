@@ -4,9 +4,9 @@ use crate::arguments::{Global, ProgressWhen};
 use crate::interrupt;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use pellicle::geometry::Progress;
-use std::io::IsTerminal;
+use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, OnceLock, PoisonError};
 
 /// Watches the work: a bar on standard error if wanted, and Ctrl-C.
 pub struct Watch {
@@ -14,16 +14,37 @@ pub struct Watch {
     stage: Mutex<&'static str>,
 }
 
+/// The bar that is shown, for what is written beside it.
+static SHOWN: OnceLock<ProgressBar> = OnceLock::new();
+
+/// Standard error for lines that are no progress: the bar makes way for them.
+pub struct Log;
+
+impl Write for Log {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let write = || io::stderr().write(bytes);
+        match SHOWN.get() {
+            Some(bar) if !bar.is_finished() => bar.suspend(write),
+            _ => write(),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        io::stderr().flush()
+    }
+}
+
 impl Watch {
     /// The watch that the command line asks for.
     pub fn new(global: &Global) -> Self {
         let wanted = match global.progress {
-            ProgressWhen::Auto => !global.quiet && std::io::stderr().is_terminal(),
+            ProgressWhen::Auto => !global.quiet && io::stderr().is_terminal(),
             ProgressWhen::Bar => true,
             ProgressWhen::None => false,
         };
+        let bar = wanted.then(|| SHOWN.get_or_init(bar).clone());
         Self {
-            bar: wanted.then(bar),
+            bar,
             stage: Mutex::new(""),
         }
     }
@@ -49,7 +70,7 @@ const BAR: &str = "{msg:>12} [{bar:40}] {percent:>3}% {elapsed}";
 
 fn bar() -> ProgressBar {
     // Drawn on any stream: `--progress bar` into a file shows what it would on a terminal.
-    let target = if std::io::stderr().is_terminal() {
+    let target = if io::stderr().is_terminal() {
         ProgressDrawTarget::stderr()
     } else {
         ProgressDrawTarget::term_like_with_hz(Box::new(Plain), 2)
@@ -71,32 +92,32 @@ impl indicatif::TermLike for Plain {
     fn width(&self) -> u16 {
         80
     }
-    fn move_cursor_up(&self, _: usize) -> std::io::Result<()> {
+    fn move_cursor_up(&self, _: usize) -> io::Result<()> {
         Ok(())
     }
-    fn move_cursor_down(&self, _: usize) -> std::io::Result<()> {
+    fn move_cursor_down(&self, _: usize) -> io::Result<()> {
         Ok(())
     }
-    fn move_cursor_right(&self, _: usize) -> std::io::Result<()> {
+    fn move_cursor_right(&self, _: usize) -> io::Result<()> {
         Ok(())
     }
-    fn move_cursor_left(&self, _: usize) -> std::io::Result<()> {
+    fn move_cursor_left(&self, _: usize) -> io::Result<()> {
         Ok(())
     }
-    fn write_line(&self, line: &str) -> std::io::Result<()> {
+    fn write_line(&self, line: &str) -> io::Result<()> {
         self.write_str(line)
     }
-    fn write_str(&self, text: &str) -> std::io::Result<()> {
+    fn write_str(&self, text: &str) -> io::Result<()> {
         let text = text.trim_end();
         if !text.is_empty() {
             eprintln!("{text}");
         }
         Ok(())
     }
-    fn clear_line(&self) -> std::io::Result<()> {
+    fn clear_line(&self) -> io::Result<()> {
         Ok(())
     }
-    fn flush(&self) -> std::io::Result<()> {
+    fn flush(&self) -> io::Result<()> {
         Ok(())
     }
 }
