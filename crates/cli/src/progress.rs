@@ -53,12 +53,18 @@ impl Watch {
     pub fn tell(&self, text: impl FnOnce() -> String) {
         if let Some(bar) = &self.bar {
             let mut shown = self.stage.lock().unwrap_or_else(PoisonError::into_inner);
-            if *shown != TEXT {
+            let is_first = *shown != TEXT;
+            if is_first {
                 *shown = TEXT;
                 bar.set_style(style("{msg} {elapsed}"));
             }
             bar.set_message(text());
-            bar.tick();
+            if is_first {
+                // At once, however short ago the last drawing was.
+                bar.suspend(|| ());
+            } else {
+                bar.tick();
+            }
         }
     }
 }

@@ -166,3 +166,33 @@ fn creases_are_kept_when_asked_for() {
     assert!(volume(&[]) < 0.999);
     assert!(volume(&["--no-projection"]) < 0.999);
 }
+
+#[test]
+fn vertices_lie_on_the_surface_unless_they_need_not() {
+    let folder = tempdir().unwrap();
+    let elephant = fixture("elephant.off");
+    let farthest = |further: &[&str]| {
+        let arguments = ["remesh", &elephant, "-o", "out.ply", "--force"];
+        json(folder.path(), &[&arguments, further].concat());
+        let arguments = ["compare", "out.ply", &elephant, "--samples", "0"];
+        let compared = json(folder.path(), &arguments);
+        compared["forward"]["max"]["relative"].as_f64().unwrap()
+    };
+    assert!(farthest(&[]) < 1e-9);
+    assert!(farthest(&["--no-projection"]) > 1e-4);
+}
+
+#[test]
+fn flat_parts_have_edges_of_a_tenth_of_the_diagonal_at_most() {
+    let folder = tempdir().unwrap();
+    let done = json(
+        folder.path(),
+        &[
+            &["remesh", &fixture("analytic/cube.off"), "-o", "out.ply"][..],
+            &["--curvature", "0.01", "--creases", "60"],
+        ]
+        .concat(),
+    );
+    let edge = done["mean_edge"].as_f64().unwrap() / 3.0_f64.sqrt();
+    assert!((0.07..0.13).contains(&edge), "{done}");
+}
