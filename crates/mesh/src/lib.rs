@@ -51,6 +51,7 @@ mod soup;
 mod split;
 mod trimesh;
 mod validate;
+mod winding;
 
 pub use distance::{Comparison, DistanceOptions, Distances, compare, distances};
 pub use edit::{MeshEditor, Refusal};
@@ -68,3 +69,4 @@ pub use soup::{MeshView, TriangleSoup, VertexRemap};
 pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};
 pub use trimesh::TriMesh;
 pub use validate::{Defect, validate};
+pub use winding::winding_numbers;
