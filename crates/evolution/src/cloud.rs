@@ -40,6 +40,27 @@ impl Principal {
     }
 }
 
+/// 3, or 2 for points in a plane, 1 on a line, 0 in one place, up to rounding. At least one point.
+pub(crate) fn dimension(points: &[DVec3]) -> u32 {
+    const ROUNDING: f64 = 1e-9;
+    let principal = Principal::of(points.iter().copied());
+    let local = |p: &DVec3| principal.axes.transpose() * (*p - principal.center);
+    let reach = points
+        .iter()
+        .map(|p| local(p).abs())
+        .fold(DVec3::ZERO, DVec3::max);
+    let size = points
+        .iter()
+        .map(|p| p.abs().max_element())
+        .fold(0.0, f64::max);
+    let least = ROUNDING * reach.max_element().max(1e-3 * size);
+    reach
+        .to_array()
+        .iter()
+        .filter(|&&extent| extent > least)
+        .count() as u32
+}
+
 /// The points that do not stand alone: their indices.
 ///
 /// The k-distance of a point is its mean distance from its k nearest. Sparse parts of an uneven cloud are as sparse as
@@ -111,8 +132,8 @@ fn alone(points: &[DVec3], ratio: f64) -> Vec<bool> {
     alone
 }
 
-/// The standard deviation of the points from the surface that they were taken from, and the mean spacing on it: medians
-/// over places spread through the cloud. Zero noise for fewer than 16 points.
+/// The standard deviation of the points from the surface that they were taken from: the median over places spread through
+/// the cloud. Zero for fewer than 16 points.
 ///
 /// Around each place, neighbourhoods of 16, 32, … points are fitted by a quadric; the noise is what the first of
 /// them leaves that is wide compared with what it leaves. In smaller ones noise is taken for shape, in larger ones shape
@@ -141,7 +162,6 @@ fn local_noise(points: &[DVec3], tree: &KdTree, place: DVec3) -> Option<f64> {
         let principal = Principal::of(patch.clone());
         let residual = quadric_residual(patch, &principal)?;
         last = Some(residual);
-        // Halved: a neighbourhood of the nearest points is itself cut from the layer that it is to measure.
         if principal.deviations.y > WIDE * residual {
             break;
         }

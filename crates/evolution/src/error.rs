@@ -34,6 +34,43 @@ pub enum Error {
         /// Where it stands.
         position: DVec3,
     },
+    /// The points lie in a plane, on a line, or in one place.
+    #[error(
+        "the {points} points {}: an evolution needs points all around a volume; give more, or, for a flat cloud, use the \
+         cocone method",
+        match dimension {
+            0 => "are all in one place",
+            1 => "lie on a line",
+            _ => "lie in a plane",
+        }
+    )]
+    Flat {
+        /// How many points there are, outliers left out.
+        points: usize,
+        /// 0, 1 or 2.
+        dimension: u32,
+    },
+    /// The initial surface intersects itself.
+    #[error(
+        "the initial surface intersects itself: {pairs} pairs of triangles do; repair it, or start from an ellipsoid"
+    )]
+    InitialIntersectsItself {
+        /// Pairs of triangles.
+        pairs: u64,
+    },
+    /// The initial surface does not enclose the points.
+    #[error(
+        "{outside} of {points} points, the first at {position}, are not inside of the initial surface: give one that \
+         encloses them with its triangles counter-clockwise seen from outside, or start from an ellipsoid"
+    )]
+    NotEnclosed {
+        /// The first point outside.
+        position: DVec3,
+        /// How many are outside.
+        outside: usize,
+        /// How many points there are, outliers left out.
+        points: usize,
+    },
     /// The surface has shrunk to nothing.
     #[error(
         "after {step} steps the surface has shrunk to nothing: the points enclose no volume that the grid resolves. \

@@ -7,6 +7,8 @@ use crate::{Redistribution, StepOptions};
 pub struct Stage {
     /// What moves the surface.
     pub flow: Flow,
+    /// How far short of the points the surface stops, in voxels: see [`ShortOf`](crate::ShortOf). Zero: it does not.
+    pub standoff: f64,
     /// What is done to the mesh before the first step.
     pub refinement: Refinement,
     /// What is done to the mesh between steps.
@@ -67,6 +69,7 @@ impl Stage {
     pub fn paper(steps: u32, diffusion: f64, smoothing: u32, strength: f64) -> Vec<Self> {
         let onto = Self {
             flow: Flow::OntoPoints,
+            standoff: 0.0,
             refinement: Refinement::Keep,
             upkeep: Upkeep::Keep,
             steps,
@@ -97,6 +100,7 @@ impl Stage {
         for (level, steps) in [10, 35, 175, 20, 5].into_iter().enumerate() {
             stages.push(Self {
                 flow: Flow::OntoPoints,
+                standoff: 0.0,
                 refinement: if level == 0 {
                     Refinement::Keep
                 } else {
@@ -120,6 +124,7 @@ impl Stage {
     pub fn smoothing(steps: u32, strength: f64, flow: Flow) -> Self {
         Self {
             flow,
+            standoff: 0.0,
             refinement: Refinement::Keep,
             upkeep: Upkeep::Keep,
             steps,
@@ -156,11 +161,14 @@ impl Stage {
 /// `first_edge_length` on.
 ///
 /// In a step the surface moves by at most 0.15 edges towards the points, and by `diffusion` times that times d h by diffusion.
+///
+/// All but the last stop short of the points: see [`Stage::standoff`].
 pub(crate) fn coarse_to_fine(
     first_edge_length: f64,
     edge_length: f64,
     diffusion: f64,
 ) -> Vec<Stage> {
+    const STANDOFF: f64 = 0.5;
     let levels = (first_edge_length / edge_length)
         .log2()
         .round()
@@ -171,6 +179,11 @@ pub(crate) fn coarse_to_fine(
         let advection = 0.15 * edge_length;
         stages.push(Stage {
             flow: Flow::OntoPoints,
+            standoff: if level == 0 {
+                0.0
+            } else {
+                STANDOFF * edge_length
+            },
             refinement: Refinement::Remesh { edge_length },
             upkeep: Upkeep::Remesh {
                 edge_length,

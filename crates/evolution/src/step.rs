@@ -1,6 +1,7 @@
 //! One step of the evolution (3.2), fully discretised: Daniel 2015, section 4, with the signs of the errata.
 
 use crate::Error;
+use crate::contact;
 use crate::field::{Field, Sample};
 use crate::finite_volumes::FiniteVolumes;
 use crate::linear::Convergence;
@@ -96,6 +97,10 @@ pub struct Evolution {
     samples: Vec<Sample>,
     psi: Vec<f64>,
     tangential: Vec<DVec3>,
+    /// Which vertices do not move, since another sheet is near; empty for none.
+    held: Vec<bool>,
+    /// Which vertices do not move any more; empty for none.
+    pinned: Vec<bool>,
 }
 
 /// Moves a closed surface by one step. [`Evolution`] does the same for many steps and keeps what they share.
@@ -129,6 +134,8 @@ impl Evolution {
             volumes: FiniteVolumes::default(),
             samples: Vec::new(),
             tangential: Vec::new(),
+            held: Vec::new(),
+            pinned: Vec::new(),
         })
     }
 
@@ -153,7 +160,8 @@ impl Evolution {
     ///
     /// # Errors
     ///
-    /// [`Error::NotFinite`] if a vertex would leave all bounds, [`Error::Linear`] if a solver stalls.
+    /// [`Error::NotFinite`] if the field has no finite value at a vertex, or the vertex would leave all bounds;
+    /// [`Error::Linear`] if a solver stalls.
     pub fn step(&mut self, field: &dyn Field, options: &StepOptions) -> Result<StepReport, Error> {
         // 1. Measure the surface, and the field at its vertices.
         let positions = self.mesh.positions();
@@ -163,6 +171,18 @@ impl Evolution {
                 field.sample(positions[i])
             });
         });
+        let broken = |s: &Sample| !s.value.is_finite() || !s.gradient.is_finite();
+        if let Some(i) = self.samples.iter().position(broken) {
+            return Err(self.not_finite(VertexId::new(i)));
+        }
+        for (i, sample) in self.samples.iter_mut().enumerate() {
+            if is_still(&self.held, &self.pinned, i) {
+                *sample = Sample {
+                    value: 0.0,
+                    gradient: DVec3::ZERO,
+                };
+            }
+        }
 
         // 2. The normal velocity, as a speed along N from advection, and as w_d d h from diffusion.
         let w_d = options.diffusion;
@@ -177,6 +197,11 @@ impl Evolution {
 
         // 4. The step in time that no vertex goes too far in; half as far along the surface.
         let reach = self.reach();
+        for (i, velocity) in self.tangential.iter_mut().enumerate() {
+            if is_still(&self.held, &self.pinned, i) {
+                *velocity = DVec3::ZERO;
+            }
+        }
         for (velocity, reach) in self.tangential.iter_mut().zip(&reach) {
             let limit = 0.5 * options.move_limit * reach / options.time_step;
             *velocity = velocity.clamp_length_max(limit);
@@ -231,6 +256,32 @@ impl Evolution {
         self.mesh.set_positions(moved)?;
         self.steps += 1;
         Ok(report)
+    }
+
+    /// Holds the vertices at which the surface is about to run into itself, until this is called again: those for which
+    /// another sheet, with its normal turned away, is nearer than `reach` and than twice the distance to the points.
+    /// Returns how many. O(n log n).
+    pub fn hold_contacts(&mut self, field: &dyn Field, reach: f64) -> usize {
+        let positions = self.mesh.positions();
+        self.volumes.measure(&self.rings, positions);
+        fill(&mut self.samples, positions.len(), |i| {
+            field.sample(positions[i])
+        });
+        self.held = contact::held(&self.rings, &self.volumes, &self.samples, positions, reach);
+        self.held.iter().filter(|&&held| held).count()
+    }
+
+    /// Goes back to an earlier position, and never moves again the vertices named, nor their neighbours.
+    pub(crate) fn rewind(&mut self, earlier: &TriMesh, vertices: &[usize]) -> Result<(), Error> {
+        self.mesh.set_positions(earlier.positions().to_vec())?;
+        self.pinned.resize(self.rings.vertices(), false);
+        for &i in vertices {
+            self.pinned[i] = true;
+            for edge in self.rings.around(i) {
+                self.pinned[edge.neighbor as usize] = true;
+            }
+        }
+        Ok(())
     }
 
     /// Pushes the surface along its normals until it holds a volume: two steps of Newton's method, whose derivative is
@@ -399,4 +450,10 @@ impl Evolution {
             position: self.mesh.position(vertex),
         }
     }
+}
+
+fn is_still(held: &[bool], pinned: &[bool], vertex: usize) -> bool {
+    [held, pinned]
+        .iter()
+        .any(|mask| mask.get(vertex) == Some(&true))
 }
