@@ -51,7 +51,7 @@ pub enum Outliers {
 /// What an evolution starts from.
 #[derive(Clone, Debug)]
 pub enum Initial {
-    /// An ellipsoid around the points: see [`ellipsoid_around`].
+    /// An ellipsoid around the points: see [`ellipsoid_around`](crate::ellipsoid_around).
     Ellipsoid,
     /// A closed mesh around the points.
     Mesh(TriMesh),
