@@ -44,6 +44,7 @@ fn wrong_usage_exits_with_2() {
         &["evolve", &kitten, "-o", "a.ply", "--sigma", "17"],
         &["evolve", &kitten, "-o", "a.ply", "--diffusion", "-1"],
         &["evolve", &kitten, "-o", "a.ply", "--preset", "free"],
+        &["evolve", &kitten, "-o", "a.ply", "--resolution", "0"],
         &["smooth", &kitten, "-o", "a.ply", "--strength", "nan"],
         &["remesh", &kitten, "-o", "a.ply", "--min", "1"],
         &["remesh", &kitten, "-o", "a.ply", "--creases", "200"],

@@ -1,6 +1,6 @@
 //! `pellicle evolve`.
 
-use crate::arguments::{Global, Target, not_negative, number};
+use crate::arguments::{Global, Target, not_negative, number, positive};
 use crate::failure::Failure;
 use crate::progress::Watch;
 use crate::snapshots::{Kept, Snapshots};
@@ -8,7 +8,7 @@ use crate::surface::Surface;
 use crate::{interrupt, output};
 use clap::{Args, ValueEnum};
 use pellicle::evolution::{
-    Error, Evolved, Initial, Measures, Options, Outliers, Schedule, Stage, evolve_with,
+    EdgeLength, Error, Evolved, Initial, Measures, Options, Outliers, Schedule, Stage, evolve_with,
 };
 use pellicle::geometry::{DVec3, Progress};
 use pellicle::io::{Content, write_mesh, write_text};
@@ -52,6 +52,9 @@ pub struct Evolve {
         value_parser = clap::value_parser!(u32).range(4..=1 << 20)
     )]
     grid: u32,
+    /// The length of edges, in the units of the cloud; two voxels by default
+    #[arg(long, value_name = "LENGTH", value_parser = positive, conflicts_with = "preset")]
+    resolution: Option<f64>,
     /// Other stages than the adaptive ones, which go from coarse to fine until the surface rests
     #[arg(long, value_name = "NAME")]
     preset: Option<Preset>,
@@ -110,6 +113,8 @@ struct Done {
     /// The points' estimated noise.
     noise: f64,
     steps: u64,
+    /// Vertices that were held, since the surface would have run into itself there.
+    held: usize,
     /// None where a number of steps was asked for, not rest.
     at_rest: Option<bool>,
     /// Of all points from the surface, outliers included.
@@ -128,6 +133,7 @@ impl Evolve {
             input,
             target,
             grid: Options::default().resolution,
+            resolution: None,
             preset: None,
             sigma: None,
             diffusion: None,
@@ -215,8 +221,13 @@ impl Evolve {
                 levels: 4,
                 stages: Stage::paper(95, diffusion, self.smooth.unwrap_or(25), 450.0),
             };
-        } else if let Schedule::Adaptive { diffusion, .. } = &mut options.schedule {
+        } else if let Schedule::Adaptive {
+            edge_length,
+            diffusion,
+        } = &mut options.schedule
+        {
             *diffusion = self.diffusion.unwrap_or(*diffusion);
+            *edge_length = self.resolution.map_or(*edge_length, EdgeLength::Absolute);
         }
         Ok(options)
     }
@@ -224,7 +235,12 @@ impl Evolve {
     /// Names the file that is the reason of a failure.
     fn explain(&self, reason: Error) -> Failure {
         let path = match (&reason, &self.initial) {
-            (Error::NotClosed { .. }, Some(initial)) => initial,
+            (
+                Error::NotClosed { .. }
+                | Error::InitialIntersectsItself { .. }
+                | Error::NotEnclosed { .. },
+                Some(initial),
+            ) => initial,
             _ => &self.input,
         };
         Failure::Evolution {
@@ -257,6 +273,7 @@ impl Evolve {
             sigma: report.sigma,
             noise: report.noise,
             steps: report.steps,
+            held: report.held,
             at_rest: self.preset.is_none().then_some(report.at_rest),
             mean_distance: distances.mean,
             mean_distance_voxels: distances.mean / report.spacing,
@@ -299,6 +316,13 @@ impl Done {
             output::digits(self.mean_distance),
             self.mean_distance_voxels
         );
+        if self.held > 0 {
+            tracing::warn!(
+                "{} vertices were held where the surface would have run into itself: parts of the object nearly touch \
+                 there, or it has a hole, which a start from a mesh with that hole, --initial, keeps open",
+                self.held
+            );
+        }
         if self.at_rest == Some(false) {
             tracing::warn!(
                 "the surface is still moving: its steps ran out before it came to rest; see the largest move in a \
