@@ -15,7 +15,7 @@ use std::cmp::Ordering;
 /// # Errors
 ///
 /// Points that are none, or lie in a plane; an initial surface that is open or does not hold them; and whatever
-/// [`DistanceGrid::new`] and [`Evolution::step`] refuse.
+/// [`DistanceGrid::new`] and [`Evolution::step`](crate::Evolution::step) refuse.
 pub fn evolve(points: &[DVec3], options: &Options) -> Result<Evolved, Error> {
     evolve_with(points, options, &(), &mut |_, _| {})
 }

@@ -82,6 +82,49 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! ## Evolve a surface onto points
+//!
+//! For clouds that are noisy, uneven, full of outliers or missing a part: a closed surface shrinks onto them and keeps a
+//! good mesh. It starts as an ellipsoid and keeps that topology. Options are in voxels, so they suit any unit.
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! # let points: Vec<DVec3> = (0..900)
+//! #     .map(|i| {
+//! #         let z = 1.0 - (2.0 * f64::from(i) + 1.0) / 900.0;
+//! #         let (sin, cos) = (2.399963 * f64::from(i)).sin_cos();
+//! #         DVec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
+//! #     })
+//! #     .collect();
+//! let options = evolution::Options { resolution: 40, ..evolution::Options::default() };
+//! let evolved = evolve(&points, &options)?;
+//! assert!(evolved.mesh.is_closed());
+//! assert_eq!(mesh::count_self_intersections((&evolved.mesh).into(), &())?, 0);
+//!
+//! // A step at a time: mean curvature flow of the result.
+//! let smooth = evolution::StepOptions { diffusion: 0.001, time_step: 1.0, ..Default::default() };
+//! let mut surface = evolution::Evolution::new(evolved.mesh)?;
+//! surface.step(&evolution::One, &smooth)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! ## Edit, subdivide and remesh
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! let sphere = mesh::icosphere(3)?;
+//! let options = mesh::RemeshOptions {
+//!     target: mesh::TargetLength::Absolute(0.3),
+//!     ..mesh::RemeshOptions::default()
+//! };
+//! let (coarser, report) = mesh::remesh(&sphere, &options, &())?;
+//! assert!(coarser.triangles().len() < sphere.triangles().len());
+//! assert!(report.after.unwrap().min_angle.to_degrees() > 30.0);
+//! # Ok::<(), mesh::MeshError>(())
+//! ```
+//!
 //! ## Measure a mesh
 //!
 //! ```
@@ -175,13 +218,14 @@ pub use pellicle_spatial as spatial;
 pub mod prelude {
     pub use crate::cocone::{Reconstruction, reconstruct};
     pub use crate::delaunay::{Tetrahedralization, tetrahedralize};
+    pub use crate::evolution::{Evolved, evolve};
     pub use crate::geometry::{Cancelled, DVec2, DVec3, PointCloud, Progress, VertexId};
     pub use crate::io::{
         ReadOptions, WriteOptions, read_mesh, read_points, write_mesh, write_points,
     };
     pub use crate::mesh::{MeshView, TriMesh, TriangleSoup};
     pub use crate::render::{render_mesh, render_points};
-    pub use crate::{cocone, delaunay, geometry, io, mesh, render};
+    pub use crate::{cocone, delaunay, evolution, geometry, io, mesh, render};
 }
 
 /// The examples of the READMEs, which compile and hold.
