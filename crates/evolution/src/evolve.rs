@@ -1,5 +1,6 @@
 //! From a cloud to a surface: the whole evolution.
 
+use crate::placement::Placement;
 use crate::run::Run;
 use crate::{
     DistanceGrid, DistanceOptions, EdgeLength, Error, Evolved, Flow, Measures, Options, Outliers,
@@ -21,8 +22,32 @@ pub fn evolve(points: &[DVec3], options: &Options) -> Result<Evolved, Error> {
 }
 
 /// [`evolve`], watched: `progress` is told of the steps and may stop it; `each_step` gets the measures and the surface
-/// at the start of every stage and after every step.
+/// after every step, in the units of the points.
 pub fn evolve_with(
+    points: &[DVec3],
+    options: &Options,
+    progress: &dyn Progress,
+    each_step: &mut dyn FnMut(&Measures, &TriMesh),
+) -> Result<Evolved, Error> {
+    let Some(placement) = Placement::of(points) else {
+        return evolve_in_place(points, options, progress, each_step);
+    };
+    let inside: Vec<DVec3> = points.iter().map(|&p| placement.inside(p)).collect();
+    let options = placement.options(options)?;
+    let each_step = &mut |measures: &Measures, mesh: &TriMesh| {
+        // A surface beyond all doubles cannot be shown.
+        if let Ok(mesh) = placement.mesh(mesh) {
+            each_step(&placement.measures(measures), &mesh);
+        }
+    };
+    match evolve_in_place(&inside, &options, progress, each_step) {
+        Ok(evolved) => placement.evolved(evolved),
+        Err(error) => Err(placement.error(error)),
+    }
+}
+
+/// [`evolve_with`] for a cloud that is not far from the origin, nor very large or small.
+fn evolve_in_place(
     points: &[DVec3],
     options: &Options,
     progress: &dyn Progress,
@@ -59,6 +84,13 @@ pub fn evolve_with(
                 EdgeLength::Voxels(length) => length,
                 EdgeLength::Absolute(length) => length / grid.spacing(),
             };
+            if !(edge_length > 0.0 && edge_length * 8.0 <= f64::from(options.resolution)) {
+                return Err(Error::Option {
+                    option: "edge_length (in voxels)",
+                    value: edge_length,
+                    expected: "positive and at most an eighth of the resolution: longer edges hold no shape",
+                });
+            }
             stage::coarse_to_fine(first_edge_length / grid.spacing(), edge_length, diffusion)
         }
     };

@@ -48,6 +48,7 @@ pub mod linear;
 mod measures;
 mod options;
 mod parallel;
+mod placement;
 mod redistribution;
 mod rings;
 mod run;

@@ -133,6 +133,7 @@ impl Stage {
                 advection: 0.0,
                 diffusion: strength,
                 time_step: 1.0,
+                move_limit: 0.4,
                 redistribution: Redistribution::AreaUniform { omega: 0.2 },
                 ..StepOptions::default()
             },

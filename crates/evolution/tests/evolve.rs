@@ -188,6 +188,65 @@ fn the_unit_of_length_does_not_matter() {
 }
 
 #[test]
+fn nor_does_the_place() {
+    let points = ellipsoid(1500);
+    let options = Options {
+        resolution: 40,
+        ..Options::default()
+    };
+    let near = signed_volume((&evolve(&points, &options).unwrap().mesh).into());
+    for (scale, shift) in [
+        (1.0, DVec3::new(1e9, 0.0, -3e8)),
+        (1e200, DVec3::ZERO),
+        (1e-200, DVec3::ZERO),
+        (1e-200, DVec3::splat(1e-196)),
+        (1e300, DVec3::splat(1e305)),
+    ] {
+        let placed: Vec<DVec3> = points.iter().map(|&p| scale * p + shift).collect();
+        let mut shown = 0;
+        let watch = &mut |measures: &pellicle_evolution::Measures, mesh: &TriMesh| {
+            assert!(measures.largest_move <= scale);
+            assert!((mesh.positions()[0] - shift).abs().max_element() <= 3.0 * scale);
+            shown += 1;
+        };
+        let evolved = evolve_with(&placed, &options, &(), watch).unwrap();
+        assert_eq!(shown, evolved.report.steps);
+        let mut back = evolved.mesh;
+        let positions = back.positions().iter().map(|&p| (p - shift) / scale);
+        let positions = positions.collect();
+        back.set_positions(positions).unwrap();
+        let volume = signed_volume((&back).into());
+        assert!(
+            (volume / near - 1.0).abs() < 1e-3,
+            "{scale:e} {shift}: {volume} {near}"
+        );
+    }
+}
+
+#[test]
+fn edges_longer_than_the_object_are_refused() {
+    for edge_length in [
+        EdgeLength::Voxels(9.0),
+        EdgeLength::Absolute(10.0),
+        EdgeLength::Voxels(f64::NAN),
+    ] {
+        let schedule = Schedule::Adaptive {
+            edge_length,
+            diffusion: 0.1,
+        };
+        let error = evolve(
+            &ellipsoid(500),
+            &Options {
+                schedule,
+                ..options()
+            },
+        )
+        .unwrap_err();
+        assert!(matches!(error, Error::Option { .. }), "{error}");
+    }
+}
+
+#[test]
 fn clouds_without_a_volume_are_refused() {
     let flat =
         |map: fn(DVec3) -> DVec3| -> Vec<DVec3> { ellipsoid(200).into_iter().map(map).collect() };

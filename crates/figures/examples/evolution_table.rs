@@ -9,7 +9,9 @@
 //! - `time EXPERIMENT`: the same, without measures: seconds of all, and of that before the first step;
 //! - `measure EXPERIMENT MESH…`: measures meshes that other programs made of the same points.
 
-use pellicle::evolution::{Evolved, Options, Outliers, Schedule, Stage, evolve, evolve_with};
+use pellicle::evolution::{
+    EdgeLength, Evolved, Options, Outliers, Schedule, Stage, evolve, evolve_with,
+};
 use pellicle::mesh::{AngleBounds, DistanceOptions, compare, count_self_intersections, distances};
 use pellicle::mesh::{quality, summarize};
 use pellicle::prelude::*;
@@ -149,7 +151,7 @@ impl Experiment {
         match schedule {
             "adaptive" if cloud == "fine" => {
                 options.schedule = Schedule::Adaptive {
-                    edge_length: FINE_EDGE_LENGTH,
+                    edge_length: EdgeLength::Voxels(FINE_EDGE_LENGTH),
                     diffusion: 0.1,
                 };
             }
