@@ -145,8 +145,8 @@ pub(crate) fn gradient_velocity(
 /// as a displacement in the tangent plane.
 ///
 /// ```text
-///         i'          i' is the apex over (j, k), in the plane of the triangle: the middle of the edge plus √3/2 of its
-///        / \   i      length across it.
+///         i'          i' = ½(j + k) + ½√3 n × (k − j). Summed over a closed ring the second terms cancel, as far as it is
+///        / \   i      flat: what is left is the middle of the neighbours.
 ///       /   \
 ///      j-----k
 /// ```
@@ -156,15 +156,8 @@ pub(crate) fn towards_equilateral(
     positions: &[DVec3],
     vertex: usize,
 ) -> DVec3 {
-    const HEIGHT: f64 = 0.866_025_403_784_438_6;
     let ring = rings.around(vertex);
-    let mut sum = DVec3::ZERO;
-    for (p, edge) in ring.iter().enumerate() {
-        let next = &ring[if p + 1 == ring.len() { 0 } else { p + 1 }];
-        let [j, k] = [edge, next].map(|e| positions[e.neighbor as usize]);
-        let normal = volumes.faces[edge.triangle as usize].unit_normal;
-        sum += 0.5 * (j + k) + HEIGHT * normal.cross(k - j);
-    }
+    let sum: DVec3 = ring.iter().map(|e| positions[e.neighbor as usize]).sum();
     let displacement = sum / ring.len() as f64 - positions[vertex];
     let normal = volumes.normals[vertex];
     displacement - displacement.dot(normal) * normal
