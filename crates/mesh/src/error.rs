@@ -31,6 +31,19 @@ pub enum MeshError {
         /// Its position.
         position: DVec3,
     },
+    /// The mesh bounds nothing: an edge has more triangles on one side than on the other.
+    #[error(
+        "not closed: {forward} triangles run from vertex {} to {} and {backward} back",
+        .edge[0].0, .edge[1].0
+    )]
+    NotClosed {
+        /// The first such edge, its lower vertex first.
+        edge: [VertexId; 2],
+        /// How many triangles run along the edge.
+        forward: usize,
+        /// How many run back.
+        backward: usize,
+    },
     /// More vertices or triangles than `u32` ids can name.
     #[error(
         "{vertices} vertices and {triangles} triangles: at most 2^32 - 2 and (2^32 - 1)/3 - 1 are supported"

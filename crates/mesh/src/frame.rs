@@ -5,7 +5,7 @@ use pellicle_geometry::triangle::power_of_two_near;
 use pellicle_geometry::{Aabb, DVec3};
 
 /// The map p ↦ (p − center) / scale, with a power of two for a scale: only the subtraction rounds.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Frame {
     center: DVec3,
     pub(crate) scale: f64,

@@ -16,7 +16,8 @@
 //!   are better. [`MeshEditor`] splits, collapses and flips single edges.
 //! - [`validate()`] lists all defects; [`summarize`] measures, and [`quality`] the shapes of
 //!   triangles alone; [`self_intersections`] finds triangles that meet
-//!   where they should not, exactly; [`compare`] measures distances.
+//!   where they should not, exactly; [`compare`] measures distances,
+//!   [`SignedDistance`] those from a closed surface, exactly inside or outside.
 //!
 //! ```
 //! use pellicle_geometry::{DVec3, VertexId};
@@ -47,6 +48,7 @@ mod quality;
 mod remesh;
 mod self_intersection;
 mod shapes;
+mod signed_distance;
 mod soup;
 mod split;
 mod trimesh;
@@ -65,6 +67,7 @@ pub use remesh::{
 };
 pub use self_intersection::{count_self_intersections, self_intersections, triangles_intersect};
 pub use shapes::{icosphere, subdivide};
+pub use signed_distance::{SignedDistance, SignedDistanceSample};
 pub use soup::{MeshView, TriangleSoup, VertexRemap};
 pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};
 pub use trimesh::TriMesh;

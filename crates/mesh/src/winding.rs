@@ -12,7 +12,9 @@
 //!        a--b
 //! ```
 
-use crate::{MeshView, TriangleId};
+use crate::MeshView;
+use crate::frame::Frame;
+use crate::measure::measurable;
 use pellicle_geometry::{Aabb, DVec2, DVec3};
 use pellicle_predicates::{Sign, orient2d, orient3d};
 use pellicle_spatial::Bvh;
@@ -35,32 +37,55 @@ use std::ops::ControlFlow;
 /// # Ok::<(), pellicle_mesh::MeshError>(())
 /// ```
 pub fn winding_numbers(mesh: MeshView, points: &[DVec3]) -> Vec<i32> {
-    let corners: Vec<Option<[DVec3; 3]>> = (0..mesh.triangles.len())
-        .map(|t| {
-            let corners = mesh.corners(TriangleId::new(t))?;
-            corners.iter().all(|p| p.is_finite()).then_some(corners)
-        })
-        .collect();
-    let boxes = corners
-        .iter()
-        .map(|c| c.map_or(Aabb::EMPTY, |c| Aabb::of_points(&c)));
-    let bvh = Bvh::new(boxes);
-    points
-        .par_iter()
-        .map(|&p| {
-            let mut winding = 0;
-            if p.is_finite() {
-                let ray = Aabb::of_points(&[p, p.with_x(f64::INFINITY)]);
-                let _ = bvh.overlapping(ray, |t| {
-                    if let Some(corners) = corners[t as usize] {
-                        winding += crossing(corners, p);
-                    }
-                    ControlFlow::Continue(())
-                });
-            }
-            winding
-        })
-        .collect()
+    let surface = RayTarget::new(mesh);
+    points.par_iter().map(|&p| surface.winding(p)).collect()
+}
+
+/// Triangles that rays are tested against, in a hierarchy.
+///
+/// Its boxes are those of the triangles in the frame, so that the same hierarchy serves for distances. No candidate is lost
+/// to rounding there: a frame rounds monotonically, so boxes that meet still meet; candidates are decided by the corners as
+/// given.
+#[derive(Clone, Debug)]
+pub(crate) struct RayTarget {
+    pub(crate) frame: Frame,
+    /// The corners of each triangle; those of unusable triangles are NaN, and their boxes are empty.
+    pub(crate) corners: Vec<[DVec3; 3]>,
+    pub(crate) bvh: Bvh,
+}
+
+impl RayTarget {
+    pub(crate) fn new(mesh: MeshView) -> Self {
+        // Isolated vertices must not set the scale.
+        let used: Vec<[DVec3; 3]> = measurable(mesh).map(|(_, corners)| corners).collect();
+        let frame = Frame::of(used.as_flattened());
+        let mut corners = vec![[DVec3::NAN; 3]; mesh.triangles.len()];
+        let mut boxes = vec![Aabb::EMPTY; mesh.triangles.len()];
+        for (t, found) in measurable(mesh) {
+            corners[t] = found;
+            boxes[t] = Aabb::of_points(&found.map(|p| frame.apply(p)));
+        }
+        Self {
+            frame,
+            corners,
+            bvh: Bvh::new(boxes),
+        }
+    }
+
+    /// How often the triangles wind around `p`; 0 if that is not finite.
+    pub(crate) fn winding(&self, p: DVec3) -> i32 {
+        if !p.is_finite() {
+            return 0;
+        }
+        let start = self.frame.apply(p);
+        let ray = Aabb::of_points(&[start, start.with_x(f64::INFINITY)]);
+        let mut winding = 0;
+        let _ = self.bvh.overlapping(ray, |t| {
+            winding += crossing(self.corners[t as usize], p);
+            ControlFlow::Continue(())
+        });
+        winding
+    }
 }
 
 /// 1 if the ray from `p` along +x leaves through the triangle, −1 if it enters, 0 if it misses.
