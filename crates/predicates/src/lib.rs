@@ -56,6 +56,7 @@ mod lattice;
 mod polynomial;
 mod sign;
 
+pub mod implicit;
 pub mod lifted;
 pub mod sos;
 pub mod statistics;
