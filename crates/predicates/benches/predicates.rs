@@ -3,7 +3,11 @@
 //! `robust` runs beside, for comparison. Each figure is the least of several rounds over the same calls.
 
 use glam::DVec3;
-use pellicle_predicates::{Sign, StaticFilter, insphere, lifted, orient3d};
+use pellicle_predicates::{
+    Sign, StaticFilter,
+    implicit::{Lattice, Plane, Point},
+    insphere, lifted, orient3d,
+};
 use std::{hint::black_box, time::Instant};
 
 const CALLS: usize = 20_000;
@@ -62,7 +66,7 @@ fn grid_cell(random: &mut Random) -> Call {
 }
 
 /// The least time of a call, in nanoseconds.
-fn time(calls: &[Call], mut predicate: impl FnMut(&Call) -> Sign) -> f64 {
+fn time<C, R>(calls: &[C], mut predicate: impl FnMut(&C) -> R) -> f64 {
     let mut least = f64::INFINITY;
     for _ in 0..ROUNDS {
         let start = Instant::now();
@@ -144,4 +148,70 @@ fn main() {
             time(calls, robust_orient3d),
         );
     }
+    println!(
+        "\n| implicit points, ns a call | plane | line and plane | three planes | centroid | compare | orient2d, filtered | orient2d, exact | side | side, exact |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|");
+    for (name, calls) in &inputs {
+        implicit(name, calls);
+    }
+    // Coordinates of about 110 bits.
+    let random = &mut Random(2);
+    let mut wide = || {
+        DVec3::from_array([0; 3].map(|_| random.unit() * 2_f64.powi(-(random.below(56) as i32))))
+    };
+    let calls: Vec<Call> = (0..CALLS).map(|_| [0; 5].map(|_| wide())).collect();
+    implicit("of sizes from 2⁻⁵⁶ to 1", &calls);
+}
+
+/// A row of timings: each point is made from the corners of a few calls.
+fn implicit(name: &str, calls: &[Call]) {
+    let calls = &calls[..CALLS / 10];
+    let lattice = Lattice::of(calls.iter().flatten().copied());
+    let planes: Vec<[Plane; 3]> = calls
+        .iter()
+        .map(|&[a, b, c, d, e]| {
+            [[a, b, c], [b, d, e], [c, e, a]].map(|[p, q, r]| lattice.plane(p, q, r))
+        })
+        .collect();
+    let meet = |[f, g, h]: &[Plane; 3]| lattice.three_planes(f, g, h);
+    let points: Vec<Point> = planes
+        .windows(3)
+        .filter_map(|w| meet(&[w[0][0].clone(), w[1][1].clone(), w[2][2].clone()]))
+        .collect();
+    let triples: Vec<[Point; 3]> = points
+        .windows(3)
+        .map(|w| [0, 1, 2].map(|i| w[i].clone()))
+        .collect();
+    // A point three times: collinear beyond what a filter can see.
+    let alike: Vec<[Point; 3]> = (points.iter().filter(|p| !p.is_exact()))
+        .map(|p| [0; 3].map(|_| p.clone()))
+        .collect();
+    let lines: Vec<_> = calls
+        .windows(2)
+        .zip(&planes)
+        .map(|(w, f)| (w[1][0], w[1][3], f[0].clone()))
+        .collect();
+    let mixed: Vec<[Plane; 3]> = (planes.windows(3))
+        .map(|w| [w[0][0].clone(), w[1][1].clone(), w[2][2].clone()])
+        .collect();
+    let on: Vec<(Plane, Option<Point>)> = lines
+        .iter()
+        .map(|(p, q, f)| (f.clone(), lattice.line_plane(*p, *q, f)))
+        .collect();
+    let side = |(f, p): &(Plane, Option<Point>)| p.as_ref().map(|p| lattice.side(f, p));
+    println!(
+        "| {name} | {:.0} | {:.0} | {:.0} | {:.0} | {:.1} | {:.0} | {:.0} | {:.0} | {:.0} |",
+        time(calls, |&[a, b, c, ..]| lattice.plane(a, b, c)),
+        time(&lines, |(p, q, f)| lattice.line_plane(*p, *q, f)),
+        time(&mixed, meet),
+        time(&triples, |[a, b, c]| lattice.centroid([a, b, c])),
+        time(&triples, |[a, b, _]| lattice.compare(a, b, 0)),
+        time(&triples, |[a, b, c]| lattice.orient2d(0, a, b, c)),
+        time(&alike, |[a, b, c]| lattice.orient2d(0, a, b, c)),
+        time(&triples[..triples.len().min(planes.len())], |[a, ..]| {
+            lattice.side(&planes[0][0], a)
+        }),
+        time(&on, side),
+    );
 }
