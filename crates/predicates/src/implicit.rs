@@ -37,7 +37,7 @@
 //!
 //! *Sizes.* For coordinates of B bits above the lattice's unit, normals have 2B + 3 bits, the W and X of a
 //! line with a plane 3B and 4B, of three planes 6B and 7B, the determinant of three such points 20B. The
-//! numbers are sums of products, without heap memory up to 1024 bits; no width is too large for them.
+//! numbers are sums of products, without heap memory up to 512 bits; no width is too large for them.
 //!
 //! Coordinates must be finite: with NaN or infinity no result means anything (there is no panic). An axis is
 //! 0, 1 or 2, and counts modulo three.

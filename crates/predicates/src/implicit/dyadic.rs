@@ -4,8 +4,9 @@
 use crate::{Sign, integer::Parts};
 use std::{array::from_fn, cmp::Ordering, ops::Neg};
 
-/// Limbs of a number that needs no heap: 1024 bits.
-const INLINE: usize = 16;
+/// Limbs of a number that needs no heap: 512 bits. With more, moving the numbers about takes longer than
+/// multiplying them.
+const INLINE: usize = 8;
 
 /// A number m · 2^(64 low): the limbs of |m| have no zeros at either end; zero has none.
 ///
@@ -18,7 +19,7 @@ pub(crate) struct Dyadic {
     length: usize,
     inline: [u64; INLINE],
     /// All limbs, when they are more than fit inline.
-    spilled: Vec<u64>,
+    spilled: Box<[u64]>,
 }
 
 /// A [`Dyadic`] that lies elsewhere.
@@ -81,7 +82,7 @@ impl Dyadic {
             low: 0,
             length: 0,
             inline: [0; INLINE],
-            spilled: Vec::new(),
+            spilled: Box::default(),
         };
         let Some(last) = limbs.iter().rposition(|&limb| limb != 0) else {
             return number;
@@ -93,7 +94,7 @@ impl Dyadic {
         number.length = limbs.len();
         match number.inline.get_mut(..limbs.len()) {
             Some(inline) => inline.copy_from_slice(limbs),
-            None => number.spilled = limbs.to_vec(),
+            None => number.spilled = limbs.into(),
         }
         number
     }
