@@ -2,7 +2,7 @@
 //! points need.
 
 use crate::{Sign, integer::Parts};
-use std::{array::from_fn, cmp::Ordering, ops::Neg};
+use std::{array::from_fn, ops::Neg};
 
 /// Limbs of a number that needs no heap: 512 bits. With more, moving the numbers about takes longer than
 /// multiplying them.
@@ -193,46 +193,46 @@ pub(crate) fn sum<const N: usize>(terms: [(View, View); N]) -> Dyadic {
     if low > top {
         return Dyadic::trimmed(false, 0, &[]);
     }
-    // A sum of fewer than 2⁶⁴ products has one limb more than the longest of them.
+    // The sum of N products and its sign take less than a limb more than the longest of them.
     let length = (top - low) as usize + 1;
     match length {
-        0..=8 => sum_in(low, &mut [0; 8], &mut [0; 8], &terms),
-        9..=16 => sum_in(low, &mut [0; 16], &mut [0; 16], &terms),
-        17..=32 => sum_in(low, &mut [0; 32], &mut [0; 32], &terms),
-        _ => sum_in(low, &mut vec![0; length], &mut vec![0; length], &terms),
+        0..=8 => sum_in(low, &mut [0; 8][..length], &terms),
+        9..=16 => sum_in(low, &mut [0; 16][..length], &terms),
+        17..=32 => sum_in(low, &mut [0; 32][..length], &terms),
+        _ => sum_in(low, &mut vec![0; length], &terms),
     }
 }
 
-/// The same, with room for the positive and for the negative products, both zero.
-fn sum_in(low: i32, positive: &mut [u64], negative: &mut [u64], terms: &[(View, View)]) -> Dyadic {
+/// The same, in two's complement in limbs that are zero and enough.
+fn sum_in(low: i32, limbs: &mut [u64], terms: &[(View, View)]) -> Dyadic {
     for (x, y) in terms {
         if x.is_zero() || y.is_zero() {
             continue;
         }
-        let sum = if x.negative == y.negative {
-            &mut *positive
-        } else {
-            &mut *negative
+        let place = (x.low + y.low - low) as usize;
+        let (rows, columns) = match x.limbs.len() < y.limbs.len() {
+            true => (x.limbs, y.limbs),
+            false => (y.limbs, x.limbs),
         };
-        add_product(&mut sum[(x.low + y.low - low) as usize..], x.limbs, y.limbs);
-    }
-    match positive.iter().rev().cmp(negative.iter().rev()) {
-        Ordering::Equal => Dyadic::trimmed(false, 0, &[]),
-        Ordering::Greater => {
-            subtract(positive, negative);
-            Dyadic::trimmed(false, low, positive)
-        }
-        Ordering::Less => {
-            subtract(negative, positive);
-            Dyadic::trimmed(true, low, negative)
+        if x.negative == y.negative {
+            add_product(&mut limbs[place..], rows, columns);
+        } else {
+            subtract_product(&mut limbs[place..], rows, columns);
         }
     }
+    let negative = limbs.last().is_some_and(|top| top >> 63 == 1);
+    if negative {
+        let mut carry = true;
+        for limb in limbs.iter_mut() {
+            (*limb, carry) = (!*limb).overflowing_add(u64::from(carry));
+        }
+    }
+    Dyadic::trimmed(negative, low, limbs)
 }
 
 /// Schoolbook, row by row straight into the sum.
 #[inline]
-fn add_product(sum: &mut [u64], x: &[u64], y: &[u64]) {
-    let (rows, columns) = if x.len() < y.len() { (x, y) } else { (y, x) };
+fn add_product(sum: &mut [u64], rows: &[u64], columns: &[u64]) {
     for (i, &x) in rows.iter().enumerate() {
         let (row, above) = sum[i..].split_at_mut(columns.len());
         let mut carry = 0;
@@ -252,14 +252,27 @@ fn add_product(sum: &mut [u64], x: &[u64], y: &[u64]) {
     }
 }
 
-/// large − small, where large is not the smaller one.
-fn subtract(large: &mut [u64], small: &[u64]) {
-    let mut borrow = false;
-    for (x, &y) in large.iter_mut().zip(small) {
-        let (rest, first) = x.overflowing_sub(y);
-        let (rest, second) = rest.overflowing_sub(u64::from(borrow));
-        *x = rest;
-        borrow = first | second;
+/// The same, taken away.
+#[inline]
+fn subtract_product(sum: &mut [u64], rows: &[u64], columns: &[u64]) {
+    for (i, &x) in rows.iter().enumerate() {
+        let (row, above) = sum[i..].split_at_mut(columns.len());
+        let mut borrow = 0;
+        for (digit, &y) in row.iter_mut().zip(columns) {
+            let product = u128::from(x) * u128::from(y) + u128::from(borrow);
+            let (rest, below) = digit.overflowing_sub(product as u64);
+            *digit = rest;
+            // No overflow: where the upper half is 2⁶⁴ − 1, the lower one is zero.
+            borrow = (product >> 64) as u64 + u64::from(below);
+        }
+        for digit in above {
+            let (rest, below) = digit.overflowing_sub(borrow);
+            *digit = rest;
+            if !below {
+                break;
+            }
+            borrow = 1;
+        }
     }
 }
 
