@@ -1,8 +1,8 @@
 //! Shapes and clouds with known truth, for the experiments of the papers. Not published.
 //!
 //! A [`Shape`] is a closed mesh as fine as the truth needs, its volume, and points of the surface itself; [`shapes`]
-//! makes those of Daniel 2015. [`clouds`] gives a cloud the defects of measured ones. Everything is seeded and the same
-//! on every machine.
+//! makes those of Daniel 2015. [`clouds`] gives a cloud the defects of measured ones. [`crossing`] makes surfaces that
+//! cross themselves. Everything is seeded and the same on every machine.
 //!
 //! ```
 //! use pellicle_figures::{clouds, shapes};
@@ -16,6 +16,7 @@
 #![forbid(unsafe_code)]
 
 pub mod clouds;
+pub mod crossing;
 mod field;
 mod polygonize;
 mod random;

@@ -1,11 +1,14 @@
 //! The shapes against closed forms, and the polygoniser's and the sampler's promises.
 
-use crate::clouds;
 use crate::field::{Ellipsoid, Field};
 use crate::shape::volume;
 use crate::{AreaSampler, Random, Shape, shapes};
+use crate::{clouds, crossing};
 use pellicle::geometry::{Aabb, triangle};
-use pellicle::mesh::{area, count_self_intersections, signed_volume, summarize};
+use pellicle::mesh::{
+    TriMesh, TriangleSoup, area, count_self_intersections, signed_volume, summarize,
+    winding_numbers,
+};
 use pellicle::prelude::{DVec3, MeshView, VertexId};
 use std::f64::consts::PI;
 use std::sync::OnceLock;
@@ -400,4 +403,66 @@ fn a_seed_makes_one_cloud() {
         clouds::unevenly(&shape, 100, 30.0, 1),
         clouds::unevenly(&shape, 100, 30.0, 1)
     );
+}
+
+#[test]
+fn geodesic_spheres_are_even_spheres() {
+    for frequency in [1, 2, 7] {
+        let sphere = TriMesh::try_from(crossing::geodesic_sphere(frequency)).unwrap();
+        let f = frequency as usize;
+        assert_eq!(sphere.positions().len(), 10 * f * f + 2);
+        assert_eq!(sphere.triangles().len(), 20 * f * f);
+        assert!(sphere.is_closed());
+        let summary = summarize((&sphere).into()).unwrap();
+        assert_eq!((summary.components.len(), summary.genus()), (1, Some(0)));
+        assert!(
+            sphere
+                .positions()
+                .iter()
+                .all(|p| (p.length() - 1.0).abs() < 1e-15)
+        );
+        let lengths = summary.shape.unwrap();
+        assert!(lengths.max_edge < 1.4 * lengths.min_edge);
+    }
+}
+
+#[test]
+fn surfaces_cross_themselves_as_they_say() {
+    let pairs = |soup: &TriangleSoup| {
+        let mesh = TriMesh::try_from(soup.clone()).unwrap();
+        assert!(mesh.is_closed() && mesh.validate().is_empty());
+        count_self_intersections((&mesh).into(), &()).unwrap()
+    };
+    assert_eq!(pairs(&crossing::geodesic_sphere(20)), 0);
+    assert!((200..600).contains(&pairs(&crossing::two_spheres(24))));
+    assert!((50..500).contains(&pairs(&crossing::valley(20))));
+    let bumpy = |seed| crossing::bumpy_offset(20, 0.05, seed);
+    assert!(pairs(&bumpy(1)) > 1000);
+    assert!(bumpy(1) == bumpy(1) && bumpy(1) != bumpy(2));
+    let before = crossing::bumpy_offset(20, 0.0, 1);
+    assert_eq!(pairs(&before), 0);
+}
+
+#[test]
+fn the_valley_is_a_dent_with_three_bridges() {
+    // The surface winds once around what is inside. Above the valley's middle the lips meet at longitudes 0 and ±1/2, and
+    // between them the way is free.
+    let valley = crossing::valley(20);
+    let inside = |longitude: f64| {
+        let latitude = 0.05 * (2.0 * longitude).sin();
+        let (sin, cos) = longitude.sin_cos();
+        let up = DVec3::new(cos * latitude.cos(), sin * latitude.cos(), latitude.sin());
+        let along = (0..400).map(|i| (0.8 + 0.0005 * f64::from(i)) * up);
+        let windings = winding_numbers((&valley).into(), &along.collect::<Vec<_>>());
+        windings.into_iter().any(|winding| winding >= 1)
+    };
+    for (longitude, bridged) in [
+        (0.0, true),
+        (0.5, true),
+        (-0.5, true),
+        (0.25, false),
+        (-0.25, false),
+    ] {
+        assert_eq!(inside(longitude), bridged, "{longitude}");
+    }
 }

@@ -79,7 +79,12 @@ enum Verdict {
 pub fn run(root: &Path) -> Outcome {
     let (program, scratch) = super::command_line(root)?;
     let mut rows = Vec::new();
-    for file in tidy::fixtures::listed(&read(&root.join("fixtures/README.md"))?) {
+    let listed = tidy::fixtures::listed(&read(&root.join("fixtures/README.md"))?);
+    // Those of `repair/` are surfaces that cross themselves: their vertices sample no surface.
+    for file in listed
+        .into_iter()
+        .filter(|file| !file.starts_with("repair/"))
+    {
         let input = root.join("fixtures").join(&file);
         let truth = truth(&program, &input, &file)?;
         for method in METHODS {
