@@ -3,9 +3,9 @@
 use crate::{HalfEdgeId, MeshView, TriangleId};
 use pellicle_geometry::VertexId;
 
-/// A half-edge in the bucket of the lower of its two vertices.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Entry {
+/// A half-edge at an edge of an [`EdgeTable`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct EdgeEntry {
     /// The higher of the two vertices.
     upper: u32,
     /// The half-edge.
@@ -17,28 +17,39 @@ pub(crate) struct Entry {
 ///
 /// One counting sort by the lower vertex, then a small sort in each bucket: O(n log d), with d the
 /// largest degree, and faster than a hash map. 8 bytes a half-edge and 4 a vertex.
-pub(crate) struct EdgeTable {
+///
+/// ```
+/// use pellicle_geometry::VertexId;
+/// use pellicle_mesh::{EdgeTable, icosphere};
+/// let sphere = icosphere(0)?;
+/// let table = EdgeTable::new((&sphere).into());
+/// assert_eq!(table.edges().count(), 30);
+/// assert!(table.edges().all(|(_, entries)| entries.len() == 2));
+/// # Ok::<(), pellicle_mesh::MeshError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct EdgeTable {
     first: Vec<u32>,
-    entries: Vec<Entry>,
+    entries: Vec<EdgeEntry>,
 }
 
 impl EdgeTable {
-    /// The table of a mesh whose elements `u32` ids can name.
-    pub(crate) fn new(mesh: MeshView) -> Self {
+    /// The table of a mesh whose elements `u32` ids can name. Positions are only counted.
+    pub fn new(mesh: MeshView) -> Self {
         debug_assert!(mesh.fits_ids());
         let mut first = vec![0_u32; mesh.positions.len() + 1];
         for_each_half_edge(mesh, |lower, _, _| first[lower + 1] += 1);
         for v in 1..first.len() {
             first[v] += first[v - 1];
         }
-        let blank = Entry {
+        let blank = EdgeEntry {
             upper: 0,
             half_edge: HalfEdgeId::NONE,
         };
         let mut entries = vec![blank; first.last().map_or(0, |&n| n as usize)];
         let mut cursor = first.clone();
         for_each_half_edge(mesh, |lower, upper, half_edge| {
-            entries[cursor[lower] as usize] = Entry { upper, half_edge };
+            entries[cursor[lower] as usize] = EdgeEntry { upper, half_edge };
             cursor[lower] += 1;
         });
         for v in 0..mesh.positions.len() {
@@ -48,7 +59,7 @@ impl EdgeTable {
     }
 
     /// The edges in the order of (lower vertex, upper vertex), each with its half-edges in order of id.
-    pub(crate) fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], &[Entry])> {
+    pub fn edges(&self) -> impl Iterator<Item = ([VertexId; 2], &[EdgeEntry])> {
         (0..self.first.len() - 1).flat_map(move |v| {
             self.entries[self.first[v] as usize..self.first[v + 1] as usize]
                 .chunk_by(|a, b| a.upper == b.upper)
@@ -91,7 +102,7 @@ pub(crate) fn corner_at(triangles: &[[VertexId; 3]], h: HalfEdgeId, end: VertexI
 #[inline]
 pub(crate) fn twins_of(
     triangles: &[[VertexId; 3]],
-    group: &[Entry],
+    group: &[EdgeEntry],
 ) -> Option<(HalfEdgeId, HalfEdgeId)> {
     match group {
         [a, b] if origin(triangles, a.half_edge) != origin(triangles, b.half_edge) => {

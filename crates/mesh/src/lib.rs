@@ -56,6 +56,7 @@ mod validate;
 mod winding;
 
 pub use distance::{Comparison, DistanceOptions, Distances, compare, distances};
+pub use edge_table::{EdgeEntry, EdgeTable};
 pub use edit::{MeshEditor, Refusal};
 pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};

@@ -1,6 +1,6 @@
 //! Measures of any mesh or soup: what it is made of, how large it is, what its topology is.
 
-use crate::edge_table::{EdgeTable, Entry, corner_at, origin};
+use crate::edge_table::{EdgeEntry, EdgeTable, corner_at, origin};
 use crate::frame::{Frame, Sum};
 use crate::validate::{duplicates, umbrellas};
 use crate::{MeshError, MeshView, TriangleId};
@@ -383,7 +383,7 @@ impl Pieces {
 
     /// Border edges that end in the same umbrella belong to the same loop.
     fn count_border_loops(&mut self, mesh: MeshView, table: &EdgeTable, corners: &mut UnionFind) {
-        let border: Vec<([VertexId; 2], Entry)> = table
+        let border: Vec<([VertexId; 2], EdgeEntry)> = table
             .edges()
             .filter_map(|(edge, group)| match group {
                 [only] => Some((edge, *only)),

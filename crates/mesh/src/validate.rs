@@ -174,7 +174,7 @@ pub(crate) fn duplicates(mesh: MeshView) -> Vec<(TriangleId, TriangleId)> {
 pub(crate) fn umbrellas(
     mesh: MeshView,
     table: &EdgeTable,
-    mut glues: impl FnMut(&[crate::edge_table::Entry]) -> bool,
+    mut glues: impl FnMut(&[crate::edge_table::EdgeEntry]) -> bool,
 ) -> UnionFind {
     let mut corners = UnionFind::new(3 * mesh.triangles.len());
     for (edge, group) in table.edges() {

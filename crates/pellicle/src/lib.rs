@@ -206,6 +206,7 @@ pub use pellicle_mesh as mesh;
 pub use pellicle_predicates as predicates;
 pub use pellicle_render as render;
 pub use pellicle_spatial as spatial;
+pub use pellicle_transformesh as transformesh;
 
 /// What most programs need: the modules, the central types, and the verbs whose names stand for themselves.
 ///
@@ -225,7 +226,8 @@ pub mod prelude {
     };
     pub use crate::mesh::{MeshView, TriMesh, TriangleSoup};
     pub use crate::render::{render_mesh, render_points};
-    pub use crate::{cocone, delaunay, evolution, geometry, io, mesh, render};
+    pub use crate::transformesh::repair;
+    pub use crate::{cocone, delaunay, evolution, geometry, io, mesh, render, transformesh};
 }
 
 /// The examples of the READMEs, which compile and hold.

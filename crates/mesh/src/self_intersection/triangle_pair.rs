@@ -151,6 +151,11 @@ impl Simplex {
         let Self::Triangle([a, b, c]) = *self else {
             return false;
         };
+        // An end that is a corner lies on the plane: no need for exact arithmetic to say so.
+        let is_corner = |p| p == a || p == b || p == c;
+        if is_corner(p) || is_corner(q) {
+            return false;
+        }
         if orient3d(a, b, c, p) * orient3d(a, b, c, q) != Sign::Negative {
             return false;
         }
@@ -161,7 +166,8 @@ impl Simplex {
 
 /// Case 2: whether two segments cross in one point that is inside both.
 fn cross([a, b]: [DVec3; 2], [c, d]: [DVec3; 2]) -> bool {
-    if orient3d(a, b, c, d) != Sign::Zero {
+    // With a common end they meet there, or lie on one line.
+    if a == c || a == d || b == c || b == d || orient3d(a, b, c, d) != Sign::Zero {
         return false;
     }
     // In a common plane; `c` on the line through `a` and `b` rules out a crossing inside `cd`.

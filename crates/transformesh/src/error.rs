@@ -1,0 +1,47 @@
+//! What can go wrong.
+
+use pellicle_geometry::{Cancelled, DVec3, VertexId};
+use pellicle_mesh::{MeshError, TriangleId};
+
+/// Why a mesh was not repaired.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A vertex has a coordinate that is NaN or infinite.
+    #[error("vertex {} has a coordinate that is not finite: {position}", .vertex.0)]
+    NotFinite {
+        /// The first such vertex.
+        vertex: VertexId,
+        /// Its position.
+        position: DVec3,
+    },
+    /// A triangle names a vertex that does not exist.
+    #[error("triangle {} names vertex {}, but there are only {vertices} vertices", .triangle.0, .vertex.0)]
+    NoSuchVertex {
+        /// The first such triangle.
+        triangle: TriangleId,
+        /// The vertex that it names.
+        vertex: VertexId,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// The surface has a border, or triangles that face against their neighbours, so that it has no inside.
+    #[error(
+        "the surface is open: along {edges} edges its sheets do not add up, the first from {from} to {to}; \
+         close it first, or ask for what is seen from outside (Rule::Outside), which keeps borders"
+    )]
+    Open {
+        /// At how many edges of the cut surface.
+        edges: usize,
+        /// One end of the first of them.
+        from: DVec3,
+        /// The other end.
+        to: DVec3,
+    },
+    /// More vertices or triangles than ids can name.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+    /// The work was stopped by its observer.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
