@@ -39,6 +39,7 @@ mod points;
 mod ray;
 mod repair;
 mod rounding;
+mod slivers;
 mod stitch;
 mod triangulation;
 mod weld;

@@ -6,13 +6,13 @@ use crate::hash::FastMap;
 use crate::observer::{Observer, Piece};
 use crate::outside::{fates_of_open, reached, select};
 use crate::points::Points;
-use crate::rounding::{broken, snapped};
+use crate::rounding::broken;
+use crate::slivers::without_slivers;
 use crate::stitch::{Fate, Stitched, stitch};
 use crate::triangulation::Triangulation;
 use crate::weld::{Weld, key};
 use crate::winding::{OpenEdges, Windings};
 use crate::{Error, Options, Report, Rule};
-use pellicle_geometry::triangle::power_of_two_near;
 use pellicle_geometry::{Aabb, Cancelled, Progress, UnionFind, VertexId, first_not_finite};
 use pellicle_mesh::{
     EdgeTable, MeshError, MeshView, OrientationPolicy, SplitOptions, SplitReport, TriMesh,
@@ -243,7 +243,11 @@ impl Work<'_> {
                 pairs = broken.pairs,
                 flat = broken.flat
             );
-            surface.snap(report.repeats);
+            surface = surface.without_slivers(report.repeats)?;
+            if surface.is_sound() {
+                report.remaining = 0;
+                return Ok(surface);
+            }
             let mut again = Report::default();
             let Some(next) = self.round((&surface.soup).into(), &mut again)? else {
                 return Ok(surface);
@@ -336,19 +340,32 @@ impl Surface {
         self
     }
 
-    /// Moves rounded vertices to multiples of a power of two, from the third repeat on, ever coarser.
-    fn snap(&mut self, repeat: u32) {
-        if repeat < 3 {
-            return;
-        }
-        let extent = Aabb::of_points(&self.soup.positions).extent().max_element();
-        let unit = power_of_two_near(extent) * 2.0_f64.powi(2 * repeat as i32 - 54);
-        for (position, _) in (self.soup.positions.iter_mut())
-            .zip(&self.is_rounded)
-            .filter(|(_, rounded)| **rounded)
-        {
-            *position = snapped(*position, unit);
-        }
+    /// Whether rounding broke nothing.
+    fn is_sound(&self) -> bool {
+        let broken = broken(&self.soup, |v| self.is_rounded[v.index()]);
+        broken.pairs + broken.flat == 0
+    }
+
+    /// Without triangles that rounding cannot keep apart: thinner than a few units in the last place of the largest
+    /// coordinate, more with every repeat.
+    fn without_slivers(self, repeat: u32) -> Result<Self, Error> {
+        let bounds = Aabb::of_points(&self.soup.positions);
+        let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let thickness = largest * f64::EPSILON * 4.0_f64.powi(repeat as i32);
+        let mesh = match TriMesh::try_from(self.soup) {
+            Ok(mesh) => mesh,
+            Err(MeshError::NotManifold { soup, .. }) => return Ok(Self { soup, ..self }),
+            Err(error) => return Err(error.into()),
+        };
+        let cleaned = without_slivers(mesh, &self.is_rounded, thickness);
+        let triangles = cleaned.triangles.iter();
+        let vertices = cleaned.vertices.iter();
+        Ok(Self {
+            soup: cleaned.mesh.into_soup(),
+            sources: triangles.map(|t| self.sources[t.index()]).collect(),
+            is_new: vertices.clone().map(|v| self.is_new[v.index()]).collect(),
+            is_rounded: vertices.map(|v| self.is_rounded[v.index()]).collect(),
+        })
     }
 }
 

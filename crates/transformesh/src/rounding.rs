@@ -1,7 +1,7 @@
 //! New vertices rounded to doubles, and what that may break.
 
 use crate::weld::is_flat;
-use pellicle_geometry::{Aabb, DVec3, VertexId};
+use pellicle_geometry::{Aabb, VertexId};
 use pellicle_mesh::{MeshView, TriangleId, TriangleSoup, triangles_intersect};
 use pellicle_spatial::Bvh;
 use std::ops::ControlFlow;
@@ -44,13 +44,4 @@ pub(crate) fn broken(soup: &TriangleSoup, is_rounded: impl Fn(VertexId) -> bool)
         });
     }
     result
-}
-
-/// Rounds to a multiple of `unit`, a power of two.
-pub(crate) fn snapped(position: DVec3, unit: f64) -> DVec3 {
-    let snapped = (position / unit).round() * unit;
-    match snapped.is_finite() {
-        true => snapped,
-        false => position,
-    }
 }
