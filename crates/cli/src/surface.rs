@@ -3,8 +3,8 @@
 use crate::output::digits;
 use crate::progress::Watch;
 use pellicle::mesh::{
-    AngleBounds, MeshError, MeshView, TriMesh, area, count_self_intersections, quality,
-    signed_volume,
+    AngleBounds, Component, MeshError, MeshView, TriMesh, area, count_self_intersections, quality,
+    signed_volume, summarize,
 };
 use serde::Serialize;
 
@@ -13,6 +13,9 @@ use serde::Serialize;
 pub struct Surface {
     vertices: usize,
     triangles: usize,
+    components: usize,
+    /// Of all components together; none unless closed.
+    genus: Option<usize>,
     area: f64,
     /// None unless closed.
     volume: Option<f64>,
@@ -29,7 +32,10 @@ impl Surface {
         let view = MeshView::from(mesh);
         let quality = quality(view, &AngleBounds::default());
         let quality = quality.as_ref();
+        let components = summarize(view)?.components;
         Ok(Self {
+            components: components.len(),
+            genus: components.iter().map(Component::genus).sum(),
             vertices: mesh.positions().len(),
             triangles: mesh.triangles().len(),
             area: area(view),
@@ -44,9 +50,15 @@ impl Surface {
     /// Says it, and warns of what a surface should not have.
     pub fn log(&self) {
         tracing::info!(
-            "{} vertices, {} triangles; area {}{}",
+            "{} vertices, {} triangles, {}{}; area {}{}",
             self.vertices,
             self.triangles,
+            match self.components {
+                1 => "1 component".to_owned(),
+                components => format!("{components} components"),
+            },
+            self.genus
+                .map_or_else(String::new, |genus| format!(" of genus {genus}")),
             digits(self.area),
             self.volume
                 .map_or_else(String::new, |volume| format!(", volume {}", digits(volume)))

@@ -29,6 +29,38 @@ fn bowl() -> String {
 }
 
 #[test]
+fn a_surface_parts_around_several_objects() {
+    let folder = tempdir().unwrap();
+    let spheres: Vec<DVec3> = [-2.0 * DVec3::X, 2.0 * DVec3::X]
+        .into_iter()
+        .flat_map(|center| {
+            (icosphere(3).unwrap().positions().to_vec().into_iter()).map(move |p| p + center)
+        })
+        .collect();
+    let cloud = PointCloud::new(spheres).unwrap();
+    write_points(
+        folder.path().join("two.ply"),
+        &cloud,
+        &WriteOptions::default(),
+    )
+    .unwrap();
+    let arguments = ["evolve", "two.ply", "--grid", "60", "-o"];
+    let fixed = json(folder.path(), &[&arguments[..], &["one.ply"]].concat());
+    assert_eq!(fixed["components"], 1);
+    let adaptive = ["two.off", "--topology", "adaptive", "--snapshots", "frames"];
+    let parted = json(folder.path(), &[&arguments[..], &adaptive].concat());
+    assert_eq!(parted["components"], 2, "{parted}");
+    assert_eq!(parted["self_intersections"], 0, "{parted}");
+    let refused = ["no.off", "--topology", "adaptive", "--preset", "paper"];
+    let refused = pellicle(folder.path())
+        .args(arguments)
+        .args(refused)
+        .assert()
+        .failure();
+    assert!(stderr(&refused).contains("--preset"));
+}
+
+#[test]
 fn a_sphere_has_its_volume_in_the_units_of_the_cloud() {
     let folder = tempdir().unwrap();
     let radius = 30.0;

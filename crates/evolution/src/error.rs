@@ -50,6 +50,14 @@ pub enum Error {
         /// 0, 1 or 2.
         dimension: u32,
     },
+    /// The surface could not be repaired while its topology changed.
+    #[error("after step {step} the surface could not be repaired: {reason}")]
+    Repair {
+        /// The step, from one.
+        step: u64,
+        /// What the repair said.
+        reason: String,
+    },
     /// The initial surface intersects itself.
     #[error(
         "the initial surface intersects itself: {pairs} pairs of triangles do; repair it, or start from an ellipsoid"

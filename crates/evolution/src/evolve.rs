@@ -21,6 +21,19 @@ pub fn evolve(points: &[DVec3], options: &Options) -> Result<Evolved, Error> {
     evolve_with(points, options, &(), &mut |_, _| {})
 }
 
+/// What happens where the surface would run into itself.
+pub enum Topology<'a> {
+    /// It is held there: the topology of the initial surface stays.
+    Fixed,
+    /// It goes on, and every few steps what crosses itself is cut away: see [`evolve_adapting`].
+    Adaptive {
+        /// Openings wider than this many voxels are opened: between objects, through holes, and where points are missing.
+        gap: f64,
+        /// Makes the closed manifold that bounds the outside of a surface that crosses itself.
+        repair: &'a mut dyn FnMut(TriMesh) -> Result<TriMesh, String>,
+    },
+}
+
 /// [`evolve`], watched: `progress` is told of the steps and may stop it; `each_step` gets the measures and the surface
 /// after every step, in the units of the points.
 pub fn evolve_with(
@@ -29,8 +42,33 @@ pub fn evolve_with(
     progress: &dyn Progress,
     each_step: &mut dyn FnMut(&Measures, &TriMesh),
 ) -> Result<Evolved, Error> {
+    evolve_adapting(points, options, &mut Topology::Fixed, progress, each_step)
+}
+
+/// [`evolve_with`], with a say in the topology. Adaptive, one surface around several objects ends as several, and handles
+/// open, as in the temple of Zaharescu et al. 2007.
+///
+/// The film between two objects moves on by a [`Deflation`](crate::Deflation) until its sheets have passed through each other; the repair then takes
+/// away what is inside out. This crate does not know how to repair; `pellicle::evolve_adapting` brings the two together.
+/// The smoothing and the stages of the paper keep the topology.
+pub fn evolve_adapting(
+    points: &[DVec3],
+    options: &Options,
+    topology: &mut Topology,
+    progress: &dyn Progress,
+    each_step: &mut dyn FnMut(&Measures, &TriMesh),
+) -> Result<Evolved, Error> {
+    if let Topology::Adaptive { gap, .. } = topology
+        && (gap.is_nan() || *gap <= 0.0)
+    {
+        return Err(Error::Option {
+            option: "gap (in voxels)",
+            value: *gap,
+            expected: "positive",
+        });
+    }
     let Some(placement) = Placement::of(points) else {
-        return evolve_in_place(points, options, progress, each_step);
+        return evolve_in_place(points, options, topology, progress, each_step);
     };
     let inside: Vec<DVec3> = points.iter().map(|&p| placement.inside(p)).collect();
     let options = placement.options(options)?;
@@ -40,16 +78,17 @@ pub fn evolve_with(
             each_step(&placement.measures(measures), &mesh);
         }
     };
-    match evolve_in_place(&inside, &options, progress, each_step) {
+    match evolve_in_place(&inside, &options, topology, progress, each_step) {
         Ok(evolved) => placement.evolved(evolved),
         Err(error) => Err(placement.error(error)),
     }
 }
 
-/// [`evolve_with`] for a cloud that is not far from the origin, nor very large or small.
+/// [`evolve_adapting`] for a cloud that is not far from the origin, nor very large or small.
 fn evolve_in_place(
     points: &[DVec3],
     options: &Options,
+    topology: &mut Topology,
     progress: &dyn Progress,
     each_step: &mut dyn FnMut(&Measures, &TriMesh),
 ) -> Result<Evolved, Error> {
@@ -70,7 +109,11 @@ fn evolve_in_place(
     let grid = DistanceGrid::new(&kept, &grid_options(sigma), progress)?;
 
     // 3. The stages, and the smoothing.
-    let mut run = Run::new(&grid, progress, each_step);
+    let gap = match topology {
+        Topology::Fixed => None,
+        Topology::Adaptive { gap, .. } => Some(*gap),
+    };
+    let mut run = Run::new(&grid, topology, progress, each_step);
     run.report.sigma = sigma;
     run.report.noise = noise;
     run.report.outliers = points.len() - kept.len();
@@ -91,7 +134,12 @@ fn evolve_in_place(
                     expected: "positive and at most an eighth of the resolution: longer edges hold no shape",
                 });
             }
-            stage::coarse_to_fine(first_edge_length / grid.spacing(), edge_length, diffusion)
+            stage::coarse_to_fine(
+                first_edge_length / grid.spacing(),
+                edge_length,
+                diffusion,
+                gap,
+            )
         }
     };
     let mut mesh = start;

@@ -62,12 +62,12 @@ mod tests;
 
 pub use distance::{DistanceGrid, DistanceOptions, Storage};
 pub use error::Error;
-pub use evolve::{evolve, evolve_with};
+pub use evolve::{Topology, evolve, evolve_adapting, evolve_with};
 pub use field::{Field, One, Sample, ShortOf};
 pub use initial::ellipsoid_around;
 pub use measures::Measures;
 pub use options::{EdgeLength, Evolved, Initial, Options, Outliers, Report, Schedule};
 pub use redistribution::{CurvatureDensity, CurvatureFunction, Redistribution};
 pub use stage::{Flow, Refinement, Stage, Upkeep};
-pub use step::{Evolution, StepOptions, StepReport, step};
+pub use step::{Deflation, Evolution, StepOptions, StepReport, step};
 pub use systems::SystemSolver;

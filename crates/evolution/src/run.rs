@@ -2,9 +2,9 @@
 
 use crate::{
     DistanceGrid, Error, Evolution, Field, Flow, Measures, One, Redistribution, Refinement, Report,
-    ShortOf, Stage, StepOptions, StepReport, Upkeep,
+    ShortOf, Stage, StepOptions, StepReport, Topology, Upkeep,
 };
-use pellicle_geometry::{Cancelled, Progress};
+use pellicle_geometry::{Aabb, Cancelled, Progress, UnionFind};
 use pellicle_mesh::{
     Projection, RemeshOptions, TargetLength, TriMesh, remesh, self_intersections, signed_volume,
     subdivide,
@@ -19,8 +19,9 @@ const CONTACT: f64 = 1.5;
 const SMALLEST_VOLUME: f64 = 30.0;
 
 /// What all stages share.
-pub(crate) struct Run<'a> {
+pub(crate) struct Run<'a, 'b> {
     grid: &'a DistanceGrid,
+    topology: &'a mut Topology<'b>,
     progress: &'a dyn Progress,
     each_step: &'a mut dyn FnMut(&Measures, &TriMesh),
     started: Instant,
@@ -34,14 +35,16 @@ struct Moving {
     safe: TriMesh,
 }
 
-impl<'a> Run<'a> {
+impl<'a, 'b> Run<'a, 'b> {
     pub(crate) fn new(
         grid: &'a DistanceGrid,
+        topology: &'a mut Topology<'b>,
         progress: &'a dyn Progress,
         each_step: &'a mut dyn FnMut(&Measures, &TriMesh),
     ) -> Self {
         Self {
             grid,
+            topology,
             progress,
             each_step,
             started: Instant::now(),
@@ -134,7 +137,10 @@ impl<'a> Run<'a> {
     ) -> Result<StepReport, Error> {
         match (moving.evolution.step(field, options), upkeep) {
             (Err(Error::Linear(_)), Upkeep::Remesh { edge_length, .. }) => {
-                let mended = self.remeshed(&moving.safe, edge_length, 3)?;
+                let mut mended = self.remeshed(&moving.safe, edge_length, 3)?;
+                if self.adapts() {
+                    mended = self.repaired(mended)?;
+                }
                 self.take(moving, mended)?;
                 self.hold_contacts(moving, edge_length);
                 let plain = StepOptions {
@@ -148,7 +154,7 @@ impl<'a> Run<'a> {
     }
 
     /// The mesh for a stage. Remeshing that makes the surface intersect itself is not done.
-    fn refined(&self, mesh: TriMesh, refinement: Refinement) -> Result<TriMesh, Error> {
+    fn refined(&mut self, mesh: TriMesh, refinement: Refinement) -> Result<TriMesh, Error> {
         match refinement {
             Refinement::Keep => Ok(mesh),
             Refinement::Subdivide => Ok(subdivide(&mesh)?),
@@ -156,6 +162,7 @@ impl<'a> Run<'a> {
                 let remeshed = self.remeshed(&mesh, edge_length, 3)?;
                 match intersecting(&remeshed)?.is_empty() {
                     true => Ok(remeshed),
+                    false if self.adapts() => self.repaired(remeshed),
                     // Subdivision leaves the surface as it is; the look after the first steps mends the triangles.
                     false => Ok(subdivide(&mesh)?),
                 }
@@ -171,6 +178,9 @@ impl<'a> Run<'a> {
         edge_length: f64,
         measures: &Measures,
     ) -> Result<bool, Error> {
+        if self.adapts() {
+            return self.adapt(moving, edge_length, measures);
+        }
         let crossing = intersecting(moving.evolution.mesh())?;
         let sound = crossing.is_empty();
         if sound {
@@ -188,6 +198,39 @@ impl<'a> Run<'a> {
         Ok(sound)
     }
 
+    fn adapts(&self) -> bool {
+        matches!(self.topology, Topology::Adaptive { .. })
+    }
+
+    /// Cuts away what crosses itself, and remeshes what that left; whether there was nothing.
+    fn adapt(
+        &mut self,
+        moving: &mut Moving,
+        edge_length: f64,
+        measures: &Measures,
+    ) -> Result<bool, Error> {
+        let before = moving.evolution.mesh();
+        let mut mesh = self.repaired(before.clone())?;
+        let sound = mesh == *moving.evolution.mesh();
+        if !sound || wants_upkeep(measures, edge_length * self.grid.spacing()) {
+            let remeshed = self.remeshed(&mesh, edge_length, 1)?;
+            mesh = self.repaired(remeshed)?;
+            self.take(moving, mesh)?;
+        }
+        Ok(sound)
+    }
+
+    /// The outside of a surface that may cross itself, without droplets in which there can be no points.
+    fn repaired(&mut self, mesh: TriMesh) -> Result<TriMesh, Error> {
+        let Topology::Adaptive { repair, .. } = self.topology else {
+            return Ok(mesh);
+        };
+        let step = self.report.steps;
+        let mesh = repair(mesh).map_err(|reason| Error::Repair { step, reason })?;
+        let least = SMALLEST_VOLUME * self.grid.spacing().powi(3);
+        without_droplets(mesh, least)?.ok_or(Error::Collapsed { step })
+    }
+
     /// Goes on with another mesh.
     fn take(&self, moving: &mut Moving, mesh: TriMesh) -> Result<(), Error> {
         moving.safe = mesh.clone();
@@ -196,6 +239,9 @@ impl<'a> Run<'a> {
     }
 
     fn hold_contacts(&mut self, moving: &mut Moving, edge_length: f64) {
+        if self.adapts() {
+            return;
+        }
         let reach = CONTACT * edge_length * self.grid.spacing();
         self.report.held = moving.evolution.hold_contacts(self.grid, reach);
     }
@@ -226,6 +272,34 @@ fn intersecting(mesh: &TriMesh) -> Result<Vec<usize>, Error> {
     vertices.sort_unstable();
     vertices.dedup();
     Ok(vertices)
+}
+
+/// The components of a closed mesh that hold at least some volume; `None` if none does.
+fn without_droplets(mesh: TriMesh, least: f64) -> Result<Option<TriMesh>, Error> {
+    let mut sets = UnionFind::new(mesh.positions().len());
+    for &[a, b, c] in mesh.triangles() {
+        sets.union(a.0, b.0);
+        sets.union(a.0, c.0);
+    }
+    let origin = Aabb::of_points(mesh.positions()).center();
+    let mut volumes = vec![0.0; mesh.positions().len()];
+    for t in mesh.triangle_ids() {
+        let [a, b, c] = mesh.corners(t).map(|p| p - origin);
+        let component = sets.find(mesh.triangles()[t.index()][0].0);
+        volumes[component as usize] += a.dot(b.cross(c)) / 6.0;
+    }
+    let mut soup = mesh.clone().into_soup();
+    let before = soup.triangles.len();
+    soup.triangles
+        .retain(|t| volumes[sets.find(t[0].0) as usize] >= least);
+    if soup.triangles.len() == before {
+        return Ok((before > 0).then_some(mesh));
+    }
+    soup.compact();
+    match soup.triangles.is_empty() {
+        true => Ok(None),
+        false => Ok(Some(TriMesh::try_from(soup)?)),
+    }
 }
 
 /// Whether triangles have become bad, or too large or small for the edges wanted.

@@ -1,6 +1,6 @@
 //! The stages of an evolution: what moves the surface, how long, and on which mesh.
 
-use crate::{Redistribution, StepOptions};
+use crate::{Deflation, Redistribution, StepOptions};
 
 /// A run of steps with the same parameters. Lengths are in voxels, so that the same stages suit any cloud.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,6 +153,10 @@ impl Stage {
                 Flow::MeanCurvature | Flow::VolumePreserving => 0.0,
             },
             diffusion: self.step.diffusion * spacing * squared,
+            deflation: self.step.deflation.map(|deflation| Deflation {
+                speed: deflation.speed * spacing,
+                beyond: deflation.beyond * spacing,
+            }),
             ..self.step.clone()
         }
     }
@@ -163,11 +167,13 @@ impl Stage {
 ///
 /// In a step the surface moves by at most 0.15 edges towards the points, and by `diffusion` times that times d h by diffusion.
 ///
-/// All but the last stop short of the points: see [`Stage::standoff`].
+/// All but the last stop short of the points: see [`Stage::standoff`]. With a gap, openings wider than that many voxels are
+/// opened, those wider than two edges in the first stages too.
 pub(crate) fn coarse_to_fine(
     first_edge_length: f64,
     edge_length: f64,
     diffusion: f64,
+    gap: Option<f64>,
 ) -> Vec<Stage> {
     const STANDOFF: f64 = 0.5;
     let levels = (first_edge_length / edge_length)
@@ -201,6 +207,10 @@ pub(crate) fn coarse_to_fine(
                     omega_angles: 0.2,
                 },
                 move_limit: 0.4,
+                deflation: gap.map(|gap| Deflation {
+                    speed: 0.5 * advection,
+                    beyond: (0.5 * gap).max(edge_length),
+                }),
                 ..StepOptions::default()
             },
         });

@@ -29,6 +29,8 @@ pub struct StepOptions {
     /// No vertex moves farther in a step than this share of its shortest edge, or of the mean edge if that is shorter,
     /// nor half as far along the surface: first τ is cut, to an eighth at most, then the moves. Infinite: no cap.
     pub move_limit: f64,
+    /// What, beyond the paper, keeps a film that spans an opening in motion; none by default.
+    pub deflation: Option<Deflation>,
     /// How ψ is solved for.
     pub potential_solver: SystemSolver,
     /// How the positions are solved for.
@@ -44,10 +46,24 @@ impl Default for StepOptions {
             time_step: 0.001,
             redistribution: Redistribution::AreaUniform { omega: 100.0 },
             move_limit: f64::INFINITY,
+            deflation: None,
             potential_solver: SystemSolver::POTENTIAL,
             motion_solver: SystemSolver::MOTION,
         }
     }
+}
+
+/// A least speed inward, far from the points.
+///
+/// Halfway between two objects, and in the middle of a hole, ∇d lies in the film that spans them and the film is flat: neither
+/// term of (3.2) moves it, and its two sheets meet never. With a speed of their own they pass through each other; a repair of
+/// the topology takes away what is then inside out, and the film is open.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deflation {
+    /// The speed, length per time.
+    pub speed: f64,
+    /// Where d is more than this: half the width of the narrowest opening.
+    pub beyond: f64,
 }
 
 /// What a step did.
@@ -188,7 +204,10 @@ impl Evolution {
         let w_d = options.diffusion;
         let (volumes, samples) = (&self.volumes, &self.samples);
         let advection: Vec<f64> = (0..positions.len())
-            .map(|i| velocity::advection(options.advection, volumes, &samples[i], i))
+            .map(|i| {
+                let advection = velocity::advection(options.advection, volumes, &samples[i], i);
+                velocity::deflated(advection, options.deflation, &samples[i])
+            })
             .collect();
 
         // 3. The tangential velocity.

@@ -199,6 +199,9 @@
 pub use glam;
 pub use pellicle_cocone as cocone;
 pub use pellicle_delaunay as delaunay;
+mod adapting;
+
+pub use adapting::{ADAPTING_GAP, evolve_adapting};
 pub use pellicle_evolution as evolution;
 pub use pellicle_geometry as geometry;
 pub use pellicle_io as io;

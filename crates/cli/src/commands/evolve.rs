@@ -13,6 +13,7 @@ use pellicle::evolution::{
 use pellicle::geometry::{DVec3, Progress};
 use pellicle::io::{Content, write_mesh, write_text};
 use pellicle::mesh::{DistanceOptions, MeshView, TriMesh, distances};
+use pellicle::{ADAPTING_GAP, evolve_adapting};
 use serde::Serialize;
 use std::num::NonZeroU64;
 use std::ops::ControlFlow;
@@ -23,6 +24,7 @@ const EXAMPLE: &str = "\
 Examples:
   pellicle evolve scan.xyz -o surface.ply
   pellicle evolve noisy.ply -o surface.ply --diffusion 0.4 --smooth 10
+  pellicle evolve several.ply -o surfaces.ply --topology adaptive
   pellicle evolve scan.xyz -o surface.ply --snapshots frames --every 5 --csv measures.csv
 
 A voxel is the side of a cell of the grid that the distance to the points is known on: the longest side of the box \
@@ -35,7 +37,7 @@ leaves the snapshots so far.";
 ///
 /// A surface around the points shrinks onto them, and keeps well shaped triangles while it moves. The points may be
 /// noisy or uneven, may have outliers, and may miss a part. The result is closed, of the same genus as the surface at the
-/// start: a sphere's, unless --initial gives another.
+/// start: a sphere's, unless --initial gives another, or --topology adaptive lets it part and open.
 #[derive(Debug, Args)]
 #[command(after_help = EXAMPLE)]
 pub struct Evolve {
@@ -75,6 +77,17 @@ pub struct Evolve {
     /// Start from this mesh, which must be closed, enclose the points and not intersect itself; else from an ellipsoid
     #[arg(long, value_name = "MESH")]
     initial: Option<PathBuf>,
+    /// What happens where the surface would run into itself: it is held there, or cut open and parted
+    #[arg(
+        long,
+        value_name = "RULE",
+        default_value = "fixed",
+        conflicts_with = "preset"
+    )]
+    topology: Topology,
+    /// With --topology adaptive: openings wider than this are opened, in voxels
+    #[arg(long, value_name = "VOXELS", default_value_t = ADAPTING_GAP, value_parser = positive)]
+    gap: f64,
     /// Write numbered meshes into this folder, an animation evolution.glb, and pictures side by side, evolution.png
     #[arg(long, value_name = "DIR")]
     snapshots: Option<PathBuf>,
@@ -96,6 +109,15 @@ enum Preset {
     /// The stages of figures 6 to 10 of Daniel 2015: 95 steps with 2,562 vertices, 25 of smoothing; sigma is 1, and
     /// outliers count
     Paper,
+}
+
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Topology {
+    /// The surface keeps the components and the genus of the surface at the start
+    #[default]
+    Fixed,
+    /// One surface around several objects becomes several, and holes open
+    Adaptive,
 }
 
 #[derive(Serialize)]
@@ -140,6 +162,8 @@ impl Evolve {
             keep_outliers: false,
             smooth: None,
             initial: None,
+            topology: Topology::Fixed,
+            gap: ADAPTING_GAP,
             snapshots: None,
             every: NonZeroU64::MIN,
             csv: None,
@@ -163,7 +187,8 @@ impl Evolve {
         let options = self.options(watch)?;
 
         let mut record = Record::new(snapshots, self.csv.is_some(), watch);
-        let evolved = match record.evolve(cloud.positions(), &options) {
+        let gap = (self.topology == Topology::Adaptive).then_some(self.gap);
+        let evolved = match record.evolve(cloud.positions(), &options, gap) {
             Ok(evolved) => evolved,
             Err(Ended::Record(failure)) => return Err(failure),
             Err(Ended::Evolution(reason)) => {
@@ -319,7 +344,7 @@ impl Done {
         if self.held > 0 {
             tracing::warn!(
                 "{} vertices were held where the surface would have run into itself: parts of the object nearly touch \
-                 there, or it has a hole, which a start from a mesh with that hole, --initial, keeps open",
+                 there, or it has a hole, which --topology adaptive opens",
                 self.held
             );
         }
@@ -365,18 +390,28 @@ impl<'a> Record<'a> {
         }
     }
 
-    fn evolve(&mut self, points: &[DVec3], options: &Options) -> Result<Evolved, Ended> {
+    /// With a gap, its topology adapts.
+    fn evolve(
+        &mut self,
+        points: &[DVec3],
+        options: &Options,
+        gap: Option<f64>,
+    ) -> Result<Evolved, Ended> {
         let observer = Observer {
             watch: self.watch,
             moving: AtomicBool::new(false),
             failed: AtomicBool::new(false),
         };
-        let evolved = evolve_with(points, options, &observer, &mut |measures, mesh| {
+        let each_step = &mut |measures: &Measures, mesh: &TriMesh| {
             observer.moving.store(true, Relaxed);
             observer
                 .failed
                 .fetch_or(!self.step(measures, mesh), Relaxed);
-        });
+        };
+        let evolved = match gap {
+            None => evolve_with(points, options, &observer, each_step),
+            Some(gap) => evolve_adapting(points, options, gap, &observer, each_step),
+        };
         match self.failure.take() {
             Some(failure) => Err(Ended::Record(failure)),
             None => evolved.map_err(Ended::Evolution),
