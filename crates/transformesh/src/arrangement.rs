@@ -11,7 +11,7 @@ use crate::intersection::{Constraint, Meetings};
 use crate::points::{PlaneId, Points};
 use crate::triangulation::{NONE, Triangulation, next};
 use crate::weld::Weld;
-use pellicle_geometry::{DVec3, UnionFind, VertexId};
+use pellicle_geometry::{Cancelled, DVec3, Progress, UnionFind, VertexId};
 use pellicle_mesh::TriangleId;
 use pellicle_predicates::Sign;
 use std::cmp::Ordering;
@@ -48,8 +48,9 @@ impl Arrangement {
         weld: &Weld,
         pairs: &[(TriangleId, TriangleId)],
         points: &mut Points,
+        progress: &dyn Progress,
         mut visit: impl FnMut(u32, &Triangulation, &Points),
-    ) -> Self {
+    ) -> Result<Self, Cancelled> {
         let mut is_cut = vec![false; weld.triangles.len()];
         for &(t, u) in pairs {
             is_cut[t.index()] = true;
@@ -72,13 +73,15 @@ impl Arrangement {
         this.coplanar = coplanar(weld, &meetings.coplanar, points);
         canonical_order(&mut meetings.constraints, weld, points);
         let by_triangle = |a: &Constraint, b: &Constraint| a.triangle == b.triangle;
-        for constraints in meetings.constraints.chunk_by(by_triangle) {
+        let total = this.cut as u64;
+        for (done, constraints) in (meetings.constraints.chunk_by(by_triangle)).enumerate() {
+            Cancelled::check(progress.step("cut", done as u64, total))?;
             let triangle = constraints[0].triangle;
             let cut = cut(weld, constraints, points);
             visit(triangle, &cut, points);
             this.add(triangle, &cut);
         }
-        this
+        Ok(this)
     }
 
     fn add_facet(&mut self, triangle: u32, pieces: impl Iterator<Item = [VertexId; 3]>) {

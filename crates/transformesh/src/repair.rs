@@ -13,7 +13,8 @@ use crate::triangulation::Triangulation;
 use crate::weld::{Weld, key};
 use crate::winding::{OpenEdges, Windings};
 use crate::{Error, Options, Report, Rule};
-use pellicle_geometry::{Aabb, Cancelled, Progress, UnionFind, VertexId, first_not_finite};
+use pellicle_geometry::triangle::power_of_two_near;
+use pellicle_geometry::{Aabb, Progress, UnionFind, VertexId, first_not_finite};
 use pellicle_mesh::{
     EdgeTable, MeshError, MeshView, OrientationPolicy, SplitOptions, SplitReport, TriMesh,
     TriangleId, TriangleSoup, self_intersections, signed_volume,
@@ -191,14 +192,20 @@ impl Work<'_> {
         // 2. Cut along that.
         let mut points = Points::new(&mut weld);
         let (observer, sources) = (&mut *self.observer, &weld.sources);
-        let arrangement = Arrangement::new(&weld, &pairs, &mut points, |triangle, cut, points| {
-            if observer.is_watching() {
-                let triangle = sources[triangle as usize];
-                observer.cut(triangle, &pieces_of(triangle, cut, points));
-            }
-        });
+        let arrangement = Arrangement::new(
+            &weld,
+            &pairs,
+            &mut points,
+            self.progress,
+            |triangle, cut, points| {
+                if observer.is_watching() {
+                    let triangle = sources[triangle as usize];
+                    observer.cut(triangle, &pieces_of(triangle, cut, points));
+                }
+            },
+        );
+        let arrangement = arrangement?;
         report.cut = arrangement.cut;
-        Cancelled::check(self.progress.step("cut", 1, 1))?;
         let positions = points.rounded_all();
         let table = EdgeTable::new(MeshView {
             positions: &positions,
@@ -208,8 +215,9 @@ impl Work<'_> {
         let fates = match self.keep_borders {
             true => fates_of_open(&arrangement, &table, &weld, &mut points),
             false => {
-                let windings = Windings::new(&arrangement, &table, &weld, &mut points)
-                    .map_err(|open| open_at(open, &points))?;
+                let windings =
+                    Windings::new(&arrangement, &table, &weld, &mut points, self.progress)?
+                        .map_err(|open| open_at(open, &points))?;
                 report.seeds = windings.parts;
                 let facets = arrangement.facets.iter().zip(&windings.in_front);
                 facets
@@ -217,7 +225,6 @@ impl Work<'_> {
                     .collect()
             }
         };
-        Cancelled::check(self.progress.step("decide", 1, 1))?;
         let is_clean = pairs.is_empty() && weld.degenerate == 0;
         if is_clean && fates.iter().all(|&fate| fate == Fate::Kept) {
             return Ok(None);
@@ -357,7 +364,8 @@ impl Surface {
             Err(MeshError::NotManifold { soup, .. }) => return Ok(Self { soup, ..self }),
             Err(error) => return Err(error.into()),
         };
-        let cleaned = without_slivers(mesh, &self.is_rounded, thickness);
+        let scale = power_of_two_near(largest);
+        let cleaned = without_slivers(mesh, &self.is_rounded, thickness, scale);
         let triangles = cleaned.triangles.iter();
         let vertices = cleaned.vertices.iter();
         Ok(Self {

@@ -8,7 +8,7 @@ use crate::fan::{Leaf, fan};
 use crate::points::Points;
 use crate::ray::Rays;
 use crate::weld::Weld;
-use pellicle_geometry::VertexId;
+use pellicle_geometry::{Cancelled, Progress, VertexId};
 use pellicle_mesh::EdgeTable;
 
 /// For each facet the winding number in front of it.
@@ -26,16 +26,22 @@ pub(crate) struct OpenEdges {
 }
 
 impl Windings {
+    /// Or where the surface is open.
     pub(crate) fn new(
         arrangement: &Arrangement,
         table: &EdgeTable,
         weld: &Weld,
         points: &mut Points,
-    ) -> Result<Self, OpenEdges> {
+        progress: &dyn Progress,
+    ) -> Result<Result<Self, OpenEdges>, Cancelled> {
         let mut levels = Levels::new(arrangement.facets.len());
         let mut open: Option<OpenEdges> = None;
         let height = |leaf: &Leaf| arrangement.facets[leaf.facet as usize].multiplicity;
-        for (edge, entries) in table.edges() {
+        let total = (3 * arrangement.pieces.len() / 2) as u64;
+        for (done, (edge, entries)) in table.edges().enumerate() {
+            if done % 16_384 == 0 {
+                Cancelled::check(progress.step("windings", done as u64, total))?;
+            }
             // Two pieces of one facet have nothing to say.
             if let [a, b] = entries {
                 let [a, b] = [a, b].map(|e| arrangement.facet_of[e.half_edge.triangle().index()]);
@@ -71,9 +77,9 @@ impl Windings {
             }
         }
         if let Some(open) = open {
-            return Err(open);
+            return Ok(Err(open));
         }
-        Ok(levels.solve(arrangement, weld, points))
+        Ok(Ok(levels.solve(arrangement, weld, points)))
     }
 }
 
