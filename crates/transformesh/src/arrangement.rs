@@ -171,7 +171,8 @@ fn canonical_order(constraints: &mut Vec<Constraint>, weld: &Weld, points: &Poin
     constraints.dedup_by(|a, b| a.triangle == b.triangle && a.ends == b.ends);
 }
 
-fn compare_coordinates(p: &[f64; 3], q: &[f64; 3]) -> Ordering {
+/// By x, then y, then z.
+pub(crate) fn compare_coordinates(p: &[f64; 3], q: &[f64; 3]) -> Ordering {
     let axes = p.iter().zip(q).map(|(a, b)| a.total_cmp(b));
     axes.fold(Ordering::Equal, Ordering::then)
 }

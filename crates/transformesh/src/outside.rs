@@ -1,13 +1,16 @@
 //! What is reached from outside: [`crate::Rule::Outside`].
 
-use crate::arrangement::Arrangement;
+use crate::arrangement::{Arrangement, compare_coordinates};
 use crate::fan::fan;
 use crate::points::Points;
 use crate::ray::Rays;
 use crate::stitch::Fate;
 use crate::weld::Weld;
-use pellicle_geometry::UnionFind;
+use pellicle_geometry::{DVec3, UnionFind};
 use pellicle_mesh::{EdgeTable, MeshView, TriMesh, TriangleId, TriangleSoup};
+use rayon::prelude::*;
+use std::cmp::Ordering;
+use std::f64::consts::PI;
 
 /// The triangles of a closed mesh without self-intersections that no other component encloses: without the borders of
 /// sealed voids, and whatever lies in them. Returns the triangles kept, and whether those are all.
@@ -69,9 +72,9 @@ pub(crate) fn select(mesh: MeshView, kept: &[bool]) -> (TriangleSoup, Vec<Triang
     (soup, sources)
 }
 
-/// What is seen from outside of an open surface: the region grows over fronts from seeds in front of which nothing lies,
-/// across every edge where sheets cross, but not around a border (Zaharescu et al. 2007, section 2.3). Facets with the
-/// outside in front are kept.
+/// What is outside of an open surface: regions grow over fronts, across every edge where sheets cross, but not around a
+/// border (Zaharescu et al. 2007, section 2.3). A region is outside if the generalised winding number (Jacobson et al. 2013) is
+/// below one half in front of most of it: a ray would not do, since it may come out through the opening.
 pub(crate) fn fates_of_open(
     arrangement: &Arrangement,
     table: &EdgeTable,
@@ -101,21 +104,74 @@ pub(crate) fn fates_of_open(
             sides.union(later, earlier);
         }
     }
-    let rays = Rays::new(weld, usize::MAX);
+    // The largest pieces of each region stand for it.
+    let corners = |piece: usize| arrangement.pieces[piece].map(|v| points.rounded(v));
+    let mut pieces: Vec<(u32, f64, [[f64; 3]; 3], usize)> = (0..arrangement.pieces.len())
+        .map(|piece| {
+            let region = sides.find(front(arrangement.facet_of[piece]));
+            let [a, b, c] = corners(piece);
+            let mut key = [a, b, c].map(|p| p.to_array());
+            key.sort_by(compare_coordinates);
+            (region, (b - a).cross(c - a).length(), key, piece)
+        })
+        .collect();
+    pieces.sort_by(|a, b| {
+        let places = a.2.iter().zip(&b.2);
+        (a.0.cmp(&b.0)).then(b.1.total_cmp(&a.1)).then(
+            places.fold(Ordering::Equal, |order, (p, q)| {
+                order.then(compare_coordinates(p, q))
+            }),
+        )
+    });
     let mut is_outside = vec![false; 2 * arrangement.facets.len()];
-    for (piece, &facet) in arrangement.pieces.iter().zip(&arrangement.facet_of) {
-        let region = sides.find(front(facet)) as usize;
-        let triangle = arrangement.facets[facet as usize].triangle as usize;
-        if !is_outside[region] && rays.escapes(triangle, *piece, points) {
-            is_outside[region] = true;
-        }
+    for of_region in pieces.chunk_by(|a, b| a.0 == b.0) {
+        const SAMPLES: usize = 9;
+        let samples = &of_region[..of_region.len().min(SAMPLES)];
+        let outside = samples
+            .iter()
+            .filter(|&&(_, _, _, piece)| {
+                let [a, b, c] = corners(piece);
+                let facet = arrangement.facet_of[piece] as usize;
+                let own = arrangement.facets[facet].triangle as usize;
+                winding_beside(weld, own, (a + b + c) / 3.0) - 0.5 < 0.5
+            })
+            .count();
+        is_outside[of_region[0].0 as usize] = 2 * outside > samples.len();
     }
-    let mut is_seen = |facet: u32| is_outside[sides.find(front(facet)) as usize];
     let facets = arrangement.facets.iter().zip(0..);
     facets
-        .map(|(of, facet)| match is_seen(facet) && of.multiplicity > 0 {
-            true => Fate::Kept,
-            false => Fate::Dropped,
+        .map(|(of, facet)| {
+            let is_seen = is_outside[sides.find(front(facet)) as usize];
+            match is_seen && of.multiplicity > 0 {
+                true => Fate::Kept,
+                false => Fate::Dropped,
+            }
         })
         .collect()
+}
+
+/// The generalised winding number at a point of a triangle, without what that triangle itself adds: ±½ behind it and in
+/// front of it.
+fn winding_beside(weld: &Weld, own: usize, at: DVec3) -> f64 {
+    // In order, so that threads do not show.
+    let parts: Vec<f64> = (0..weld.triangles.len())
+        .into_par_iter()
+        .with_min_len(4096)
+        .map(|t| {
+            if t == own {
+                0.0
+            } else {
+                solid_angle(weld.corners(t), at)
+            }
+        })
+        .collect();
+    parts.iter().sum::<f64>() / (4.0 * PI)
+}
+
+/// The angle under which a triangle is seen, positive from behind (van Oosterom and Strackee 1983).
+fn solid_angle(corners: [DVec3; 3], at: DVec3) -> f64 {
+    let [a, b, c] = corners.map(|p| (p - at).normalize_or_zero());
+    let sine = a.dot(b.cross(c));
+    let cosine = 1.0 + a.dot(b) + b.dot(c) + c.dot(a);
+    2.0 * sine.atan2(cosine)
 }

@@ -38,30 +38,11 @@ impl<'a> Rays<'a> {
         let front_is_ahead = plane.normal_sign(axis) == Sign::Positive;
         let center = points.lattice.centroid(piece.map(|v| points.get(v)));
         let mut ahead = 0;
-        let _ = self.crossings(&center, axis, true, points, |_, turns| {
-            ahead += turns;
-            ControlFlow::Continue(())
-        });
+        self.crossings(&center, axis, points, |_, turns| ahead += turns);
         match front_is_ahead {
             true => ahead,
             false => ahead - facet.multiplicity,
         }
-    }
-
-    /// Whether nothing is in the way of a ray that leaves the front of a triangle.
-    pub(crate) fn escapes(
-        &self,
-        triangle: usize,
-        piece: [VertexId; 3],
-        points: &mut Points,
-    ) -> bool {
-        let plane = points.plane_of_triangle(triangle, self.weld);
-        let plane = points.plane(plane);
-        let axis = plane.main_axis();
-        let up = plane.normal_sign(axis) == Sign::Positive;
-        let center = points.lattice.centroid(piece.map(|v| points.get(v)));
-        let flow = self.crossings(&center, axis, up, points, |_, _| ControlFlow::Break(()));
-        flow.is_continue()
     }
 
     /// For the center of a triangle, how often the ray from it along the main axis leaves each other triangle's component
@@ -70,52 +51,50 @@ impl<'a> Rays<'a> {
         &self,
         triangle: usize,
         points: &mut Points,
-        mut visit: impl FnMut(usize, i32),
+        visit: impl FnMut(usize, i32),
     ) {
         let plane = points.plane_of_triangle(triangle, self.weld);
         let axis = points.plane(plane).main_axis();
         let corners = self.weld.triangles[triangle].map(|v| points.get(v));
         let center = points.lattice.centroid(corners);
-        let _ = self.crossings(&center, axis, true, points, |t, turns| {
-            visit(t, turns);
-            ControlFlow::Continue(())
-        });
+        self.crossings(&center, axis, points, visit);
     }
 
-    /// Visits the triangles that the ray from a point crosses, up an axis or down: 1 where it leaves what winds once around
-    /// the place before, −1 where it enters. Triangles through the point are not crossed.
+    /// Visits the triangles that the ray from a point up an axis crosses: 1 where it leaves, −1 where it enters. Triangles
+    /// through the point are not crossed.
     fn crossings(
         &self,
         from: &Point,
         axis: usize,
-        up: bool,
         points: &mut Points,
-        mut visit: impl FnMut(usize, i32) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
+        mut visit: impl FnMut(usize, i32),
+    ) {
         // The rounded point is at most one step away from the point.
         let at = from.rounded();
         let mut tube = Aabb {
             min: DVec3::from_array(at.to_array().map(f64::next_down)),
             max: DVec3::from_array(at.to_array().map(f64::next_up)),
         };
-        match up {
-            true => tube.max[axis] = f64::INFINITY,
-            false => tube.min[axis] = f64::NEG_INFINITY,
-        }
-        let mut meet = |t: usize| match self.crossing(t, from, axis, up, points) {
-            0 => ControlFlow::Continue(()),
+        tube.max[axis] = f64::INFINITY;
+        let mut meet = |t: usize| match self.crossing(t, from, axis, points) {
+            0 => {}
             turns => visit(t, turns),
         };
         match &self.bvh {
-            Some(bvh) => bvh.overlapping(tube, |t| meet(t as usize)),
+            Some(bvh) => {
+                let _ = bvh.overlapping(tube, |t| {
+                    meet(t as usize);
+                    ControlFlow::Continue(())
+                });
+            }
             None => (0..self.weld.triangles.len())
                 .filter(|&t| Aabb::of_points(&self.weld.corners(t)).overlaps(tube))
-                .try_for_each(meet),
+                .for_each(meet),
         }
     }
 
     /// 1 if the ray leaves through the triangle, −1 if it enters, 0 if it misses.
-    fn crossing(&self, t: usize, from: &Point, axis: usize, up: bool, points: &mut Points) -> i32 {
+    fn crossing(&self, t: usize, from: &Point, axis: usize, points: &mut Points) -> i32 {
         let plane = points.plane_of_triangle(t, self.weld);
         let normal = points.plane(plane).normal_sign(axis);
         if normal == Sign::Zero {
@@ -126,11 +105,10 @@ impl<'a> Rays<'a> {
             .into_iter()
             .all(|(a, b)| side(a, b, from, axis, points) == normal);
         let side = points.lattice.side(points.plane(plane), from);
-        // Ahead of the ray, the triangle's normal along the axis and the side of the point are opposite if it goes up.
-        let ahead = if up { -normal } else { normal };
-        match (is_inside && side == ahead, side) {
-            (true, Sign::Negative) => 1,
-            (true, Sign::Positive) => -1,
+        // Ahead, if the normal points up and the point is behind, or the other way round.
+        match (is_inside, normal, side) {
+            (true, Sign::Positive, Sign::Negative) => 1,
+            (true, Sign::Negative, Sign::Positive) => -1,
             _ => 0,
         }
     }
