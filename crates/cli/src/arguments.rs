@@ -2,7 +2,8 @@
 
 use crate::commands::{
     compare::Compare, convert::Convert, delaunay::Delaunay, evolve::Evolve, info::Info,
-    normals::Normals, reconstruct::Reconstruct, remesh::Remesh, render::Render, smooth::Smooth,
+    morph::Morph, normals::Normals, reconstruct::Reconstruct, remesh::Remesh, render::Render,
+    smooth::Smooth,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
@@ -29,6 +30,7 @@ const EXIT_CODES: &str = "Exit codes: 0 done, 1 failed, 2 wrong usage, 130 inter
 pub enum Verb {
     Reconstruct(Reconstruct),
     Evolve(Evolve),
+    Morph(Morph),
     Delaunay(Delaunay),
     Info(Info),
     Convert(Convert),

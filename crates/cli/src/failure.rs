@@ -2,7 +2,7 @@
 
 use miette::Diagnostic;
 use pellicle::geometry::{Cancelled, CloudError};
-use pellicle::{cocone, delaunay, evolution, io, mesh, render};
+use pellicle::{cocone, delaunay, evolution, io, mesh, render, transformesh};
 use std::fmt;
 use std::path::PathBuf;
 
@@ -35,6 +35,14 @@ pub enum Failure {
         path: PathBuf,
         /// The reason.
         reason: evolution::Error,
+    },
+    /// A surface did not morph into another.
+    #[error("{}: {reason}", .path.display())]
+    Morph {
+        /// The file: source or target, whichever is the reason.
+        path: PathBuf,
+        /// The reason.
+        reason: transformesh::Error,
     },
     /// A mesh was not measured, or not remeshed.
     #[error("{}: {reason}", .path.display())]
@@ -115,6 +123,10 @@ impl Failure {
                         | evolution::Error::Mesh(mesh::MeshError::Cancelled(_)),
                     ..
                 }
+                | Self::Morph {
+                    reason: transformesh::Error::Cancelled(_),
+                    ..
+                }
                 | Self::Mesh {
                     reason: mesh::MeshError::Cancelled(_),
                     ..
@@ -146,6 +158,10 @@ impl Failure {
                     | evolution::Error::Collapsed { .. },
                 ..
             } => "with --snapshots DIR the surfaces up to that step are kept",
+            Self::Morph {
+                reason: transformesh::Error::Vanished { .. },
+                ..
+            } => "with --place enclose or --place fit the source starts on the target",
             Self::SameOutput { .. } => "name different files",
             _ => return None,
         })

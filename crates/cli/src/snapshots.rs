@@ -14,8 +14,6 @@ use pellicle::render::{Options, View, render_mesh, strip};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-const ANIMATION: &str = "evolution.glb";
-const STRIP: &str = "evolution.png";
 /// Pictures of the strip, and how many stand in a row.
 const PICTURES: usize = 8;
 const COLUMNS: usize = 4;
@@ -25,6 +23,8 @@ const PICTURE_SIZE: u32 = 400;
 /// A folder of snapshots.
 pub struct Snapshots<'a> {
     folder: PathBuf,
+    /// What animation and pictures are called.
+    name: &'static str,
     every: u64,
     force: bool,
     watch: &'a Watch,
@@ -42,13 +42,20 @@ pub struct Kept {
 }
 
 impl<'a> Snapshots<'a> {
-    /// A folder for a mesh every so many steps. Nothing is written yet, but whether it can be is asked.
-    pub fn new(folder: &Path, every: u64, force: bool, watch: &'a Watch) -> Result<Self, Failure> {
+    /// A folder for a mesh every so many steps, and at last `name.glb` and `name.png`. Nothing is written yet, but whether
+    /// it can be is asked.
+    pub fn new(
+        folder: &Path,
+        name: &'static str,
+        every: u64,
+        force: bool,
+        watch: &'a Watch,
+    ) -> Result<Self, Failure> {
         check_parent(folder)?;
         match std::fs::read_dir(folder) {
             Ok(entries) => {
                 for entry in entries.filter_map(Result::ok) {
-                    if is_ours(&entry.file_name().to_string_lossy()) {
+                    if is_ours(&entry.file_name().to_string_lossy(), name) {
                         check_place(&entry.path(), force)?;
                     }
                 }
@@ -58,6 +65,7 @@ impl<'a> Snapshots<'a> {
         }
         Ok(Self {
             folder: folder.to_owned(),
+            name,
             every,
             force,
             watch,
@@ -94,15 +102,15 @@ impl<'a> Snapshots<'a> {
         self.draw(bounds)?;
         Ok(Kept {
             meshes: self.steps.len(),
-            animation: self.folder.join(ANIMATION),
-            strip: self.folder.join(STRIP),
+            animation: self.animation(),
+            strip: self.strip(),
             folder: self.folder,
         })
     }
 
     /// Writes the animation; returns the box around all its frames.
     fn animate(&self) -> Result<Aabb, Failure> {
-        let path = self.folder.join(ANIMATION);
+        let path = self.animation();
         let options = self.options(false);
         let mut bounds = Aabb::EMPTY;
         // That it holds single precision is no loss for the eye: no notes of it.
@@ -124,7 +132,7 @@ impl<'a> Snapshots<'a> {
 
     /// Writes some of the snapshots side by side, as one camera sees them.
     fn draw(&self, bounds: Aabb) -> Result<(), Failure> {
-        let path = self.folder.join(STRIP);
+        let path = self.strip();
         let failed = |reason| Failure::Render {
             path: path.clone(),
             reason,
@@ -163,6 +171,14 @@ impl<'a> Snapshots<'a> {
         Ok(read_mesh(self.path(step), &options)?.soup)
     }
 
+    fn animation(&self) -> PathBuf {
+        self.folder.join(format!("{}.glb", self.name))
+    }
+
+    fn strip(&self) -> PathBuf {
+        self.folder.join(format!("{}.png", self.name))
+    }
+
     fn path(&self, step: u64) -> PathBuf {
         self.folder.join(format!("step-{step:06}.ply"))
     }
@@ -181,13 +197,14 @@ impl<'a> Snapshots<'a> {
 }
 
 /// Whether a file of this name may come of a run.
-fn is_ours(name: &str) -> bool {
+fn is_ours(name: &str, whole: &str) -> bool {
     let step = name
         .strip_prefix("step-")
         .and_then(|rest| rest.strip_suffix(".ply"));
     let is_step =
         step.is_some_and(|step| !step.is_empty() && step.bytes().all(|b| b.is_ascii_digit()));
-    is_step || name == ANIMATION || name == STRIP
+    let extension = name.strip_prefix(whole);
+    is_step || extension.is_some_and(|extension| [".glb", ".png"].contains(&extension))
 }
 
 /// At most `wanted` of `count` indices, evenly spread, the first and the last among them.
@@ -228,10 +245,16 @@ mod tests {
     #[test]
     fn only_our_names_are_ours() {
         for name in ["step-000010.ply", "evolution.glb", "evolution.png"] {
-            assert!(is_ours(name), "{name}");
+            assert!(is_ours(name, "evolution"), "{name}");
         }
-        for name in ["step-.ply", "step-1a.ply", "scan.ply", "evolution.csv"] {
-            assert!(!is_ours(name), "{name}");
+        for name in [
+            "step-.ply",
+            "step-1a.ply",
+            "scan.ply",
+            "evolution.csv",
+            "morph.glb",
+        ] {
+            assert!(!is_ours(name, "evolution"), "{name}");
         }
     }
 }

@@ -10,9 +10,10 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::tempdir;
 
-const VERBS: [&str; 10] = [
+const VERBS: [&str; 11] = [
     "reconstruct",
     "evolve",
+    "morph",
     "delaunay",
     "info",
     "convert",
@@ -45,6 +46,18 @@ fn wrong_usage_exits_with_2() {
         &["evolve", &kitten, "-o", "a.ply", "--diffusion", "-1"],
         &["evolve", &kitten, "-o", "a.ply", "--preset", "free"],
         &["evolve", &kitten, "-o", "a.ply", "--resolution", "0"],
+        &["morph", &kitten, "-o", "a.ply"],
+        &["morph", &kitten, &kitten, "-o", "a.ply", "--smoothing", "2"],
+        &[
+            "morph",
+            &kitten,
+            &kitten,
+            "-o",
+            "a.ply",
+            "--edge-length",
+            "0",
+        ],
+        &["morph", &kitten, &kitten, "-o", "a.ply", "--every", "5"],
         &["smooth", &kitten, "-o", "a.ply", "--strength", "nan"],
         &["remesh", &kitten, "-o", "a.ply", "--min", "1"],
         &["remesh", &kitten, "-o", "a.ply", "--creases", "200"],

@@ -109,6 +109,28 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! ## Morph a surface into another
+//!
+//! The source moves onto the target; holes open, pieces split off and merge on the way. It must overlap what it is to
+//! find: start from around everything.
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! let sphere = mesh::icosphere(2)?;
+//! let mut target = sphere.clone();
+//! target.set_positions(sphere.positions().iter().map(|p| *p * DVec3::new(2.0, 1.0, 0.5)).collect())?;
+//! let options = transformesh::MorphOptions {
+//!     placement: transformesh::Placement::Enclose,
+//!     ..Default::default()
+//! };
+//! let (mesh, report) = morph(&sphere, &target, &options)?;
+//! assert_eq!(report.end, transformesh::MorphEnd::Arrived);
+//! assert_eq!(report.topology, report.target_topology);
+//! assert!(mesh.is_closed() && report.mean_distance < 0.25 * report.edge_length);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! ## Edit, subdivide and remesh
 //!
 //! ```
@@ -229,7 +251,7 @@ pub mod prelude {
     };
     pub use crate::mesh::{MeshView, TriMesh, TriangleSoup};
     pub use crate::render::{render_mesh, render_points};
-    pub use crate::transformesh::repair;
+    pub use crate::transformesh::{morph, repair};
     pub use crate::{cocone, delaunay, evolution, geometry, io, mesh, render, transformesh};
 }
 

@@ -38,6 +38,36 @@ pub enum Error {
         /// The other end.
         to: DVec3,
     },
+    /// The surface that morphs shrank to nothing: it did not overlap the target.
+    #[error("the surface vanished in step {step}: where it began, it did not overlap the target")]
+    Vanished {
+        /// After how many steps.
+        step: u32,
+    },
+    /// The source or the target of a morph encloses nothing.
+    #[error("the {side} encloses nothing: it is empty, flat or inside out")]
+    Empty {
+        /// Which of the two.
+        side: &'static str,
+    },
+    /// The source or the target of a morph cannot be repaired.
+    #[error("the {side}: {reason}")]
+    Side {
+        /// Which of the two.
+        side: &'static str,
+        /// What is wrong with it.
+        reason: Box<Error>,
+    },
+    /// An option has a value that means nothing.
+    #[error("{option} is {value}: {expected}")]
+    Option {
+        /// The name of the field.
+        option: &'static str,
+        /// Its value.
+        value: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
     /// More vertices or triangles than ids can name.
     #[error(transparent)]
     Mesh(#[from] MeshError),

@@ -23,6 +23,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! [`morph`] moves a surface onto another with it, through changes of topology.
+//!
 //! The method is that of Zaharescu et al. 2007, with what they leave open decided by winding numbers; see [`repair`].
 #![forbid(unsafe_code)]
 
@@ -32,6 +34,7 @@ mod fan;
 mod grow;
 mod hash;
 mod intersection;
+mod morph;
 mod observer;
 mod options;
 mod outside;
@@ -46,6 +49,9 @@ mod weld;
 mod winding;
 
 pub use error::Error;
+pub use morph::{
+    MorphEnd, MorphOptions, MorphReport, MorphStep, Placement, Topology, morph, morph_with,
+};
 pub use observer::{Observer, Piece, Segment};
 pub use options::{Options, Report, Rule};
 pub use repair::{repair, repair_with};

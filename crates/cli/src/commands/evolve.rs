@@ -181,7 +181,15 @@ impl Evolve {
         }
         let folder = self.snapshots.as_deref();
         let snapshots = folder
-            .map(|folder| Snapshots::new(folder, self.every.get(), self.target.force, watch))
+            .map(|folder| {
+                Snapshots::new(
+                    folder,
+                    "evolution",
+                    self.every.get(),
+                    self.target.force,
+                    watch,
+                )
+            })
             .transpose()?;
         let cloud = super::read_points(&self.input, watch)?;
         let options = self.options(watch)?;

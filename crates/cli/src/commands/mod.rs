@@ -5,6 +5,7 @@ pub mod convert;
 pub mod delaunay;
 pub mod evolve;
 pub mod info;
+pub mod morph;
 pub mod normals;
 pub mod reconstruct;
 pub mod remesh;
@@ -27,6 +28,7 @@ pub fn run(verb: Verb, global: &Global) -> Result<(), Failure> {
     match verb {
         Verb::Reconstruct(verb) => verb.run(global, &watch),
         Verb::Evolve(verb) => verb.run(global, &watch),
+        Verb::Morph(verb) => verb.run(global, &watch),
         Verb::Delaunay(verb) => verb.run(global, &watch),
         Verb::Info(verb) => verb.run(global, &watch),
         Verb::Convert(verb) => verb.run(global, &watch),
