@@ -86,6 +86,7 @@ fn all_refuse(input: &str, content: Option<&[u8]>, reason: &str) {
         match verb {
             "info" => {}
             "compare" => drop(command.arg(input)),
+            "morph" => drop(command.args([input, "-o", "out.ply"])),
             "render" => drop(command.args(["-o", "out.png"])),
             _ => drop(command.args(["-o", "out.ply"])),
         }
