@@ -25,7 +25,7 @@ pub struct MorphOptions {
     pub mean_distance: f64,
     /// And the greatest at most this. Default 1.
     pub greatest_distance: f64,
-    /// After so many steps the end, wherever the surface is. Default 2000.
+    /// The end, wherever the surface is. As a default, 2000 steps.
     pub max_steps: u32,
 }
 
