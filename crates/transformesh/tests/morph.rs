@@ -403,3 +403,24 @@ fn neither_threads_nor_units_show() {
         assert!(same.into_iter().all(|(p, q)| *p == *q * unit));
     }
 }
+
+#[test]
+fn a_hole_narrower_than_an_edge_is_found_by_shorter_ones() {
+    let (source, target) = (sphere(2.5, DVec3::ZERO), torus(1.0, 0.85));
+    let with = |refinements| {
+        let options = MorphOptions {
+            edge_length: Some(0.5),
+            refinements,
+            ..MorphOptions::default()
+        };
+        check(&source, &target, &options).1
+    };
+    let coarse = with(0);
+    assert_eq!(coarse.end, MorphEnd::Resting, "{coarse:?}");
+    assert_eq!(coarse.topology.genera, [0]);
+    assert!(coarse.mean_distance < 0.2 * coarse.edge_length);
+    let fine = with(2);
+    assert_eq!(fine.end, MorphEnd::Arrived, "{fine:?}");
+    assert_eq!(fine.topology.genera, [1]);
+    assert!(fine.edge_length < 0.5);
+}
