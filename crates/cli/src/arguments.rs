@@ -3,7 +3,7 @@
 use crate::commands::{
     compare::Compare, convert::Convert, delaunay::Delaunay, evolve::Evolve, info::Info,
     morph::Morph, normals::Normals, reconstruct::Reconstruct, remesh::Remesh, render::Render,
-    smooth::Smooth,
+    repair::Repair, smooth::Smooth,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
@@ -37,6 +37,7 @@ pub enum Verb {
     Normals(Normals),
     Smooth(Smooth),
     Remesh(Remesh),
+    Repair(Repair),
     Compare(Compare),
     Render(Render),
 }

@@ -1,7 +1,7 @@
 //! Everything that can end a run, and what helps.
 
 use miette::Diagnostic;
-use pellicle::geometry::{Cancelled, CloudError};
+use pellicle::geometry::{Cancelled, CloudError, DVec3};
 use pellicle::{cocone, delaunay, evolution, io, mesh, render, transformesh};
 use std::fmt;
 use std::path::PathBuf;
@@ -51,6 +51,30 @@ pub enum Failure {
         path: PathBuf,
         /// The reason.
         reason: mesh::MeshError,
+    },
+    /// A mesh was not repaired, or not searched for where it meets itself.
+    #[error("{}: {reason}", .path.display())]
+    Repair {
+        /// The file.
+        path: PathBuf,
+        /// The reason.
+        reason: transformesh::Error,
+    },
+    /// A mesh that was to be repaired has no inside.
+    #[error(
+        "{}: the surface is open, so it has no inside: at {edges} edges a triangle has no partner, or one that faces the \
+         other way; the first runs from {from} to {to}",
+        .path.display()
+    )]
+    Open {
+        /// The file.
+        path: PathBuf,
+        /// At how many edges.
+        edges: usize,
+        /// One end of the first.
+        from: DVec3,
+        /// Its other end.
+        to: DVec3,
     },
     /// Two files were not compared.
     #[error("{}, {}: {reason}", .first.display(), .second.display())]
@@ -131,6 +155,11 @@ impl Failure {
                     reason: mesh::MeshError::Cancelled(_),
                     ..
                 }
+                | Self::Repair {
+                    reason: transformesh::Error::Cancelled(_)
+                        | transformesh::Error::Mesh(mesh::MeshError::Cancelled(_)),
+                    ..
+                }
                 | Self::Compare {
                     reason: mesh::MeshError::Cancelled(_),
                     ..
@@ -162,6 +191,9 @@ impl Failure {
                 reason: transformesh::Error::Vanished { .. },
                 ..
             } => "with --place enclose or --place fit the source starts on the target",
+            Self::Open { .. } => {
+                "close it first; or --rule outside keeps what is seen from outside, and the borders"
+            }
             Self::SameOutput { .. } => "name different files",
             _ => return None,
         })

@@ -23,9 +23,14 @@ pub fn print(text: &str) -> Result<(), Failure> {
 
 /// Writes a value to standard output as JSON.
 pub fn print_json(value: &impl Serialize) -> Result<(), Failure> {
+    print(&json(value)?)
+}
+
+/// A value as JSON, for people too.
+pub fn json(value: &impl Serialize) -> Result<String, Failure> {
     let text = serde_json::to_string_pretty(value)
         .map_err(|error| Failure::StandardOutput(error.into()))?;
-    print(&format!("{text}\n"))
+    Ok(text + "\n")
 }
 
 /// Says as JSON what was done, if asked to.

@@ -47,6 +47,11 @@ impl Surface {
         })
     }
 
+    /// Whether there is no triangle.
+    pub fn is_empty(&self) -> bool {
+        self.triangles == 0
+    }
+
     /// Says it, and warns of what a surface should not have.
     pub fn log(&self) {
         tracing::info!(

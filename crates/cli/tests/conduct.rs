@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::tempdir;
 
-const VERBS: [&str; 11] = [
+const VERBS: [&str; 12] = [
     "reconstruct",
     "evolve",
     "morph",
@@ -20,6 +20,7 @@ const VERBS: [&str; 11] = [
     "normals",
     "smooth",
     "remesh",
+    "repair",
     "compare",
     "render",
 ];
@@ -61,6 +62,9 @@ fn wrong_usage_exits_with_2() {
         &["smooth", &kitten, "-o", "a.ply", "--strength", "nan"],
         &["remesh", &kitten, "-o", "a.ply", "--min", "1"],
         &["remesh", &kitten, "-o", "a.ply", "--creases", "200"],
+        &["repair", &kitten],
+        &["repair", &kitten, "-o", "a.ply", "--rule", "inside"],
+        &["repair", &kitten, "-o", "a.ply", "--report"],
     ] {
         let assert = pellicle(folder.path()).args(arguments).assert().code(2);
         assert_eq!(stdout(&assert), "", "{arguments:?}");
@@ -181,6 +185,7 @@ fn what_a_format_cannot_hold_is_said_before_the_work() {
         (["evolve", &half, "-o", "out.xyz"], "ply"),
         (["smooth", &half, "-o", "out.xyz"], "ply"),
         (["remesh", &half, "-o", "out.pcd"], "ply"),
+        (["repair", &half, "-o", "out.csv"], "ply"),
         (["delaunay", &half, "-o", "out.xyz"], "vtk"),
         (["normals", &half, "-o", "out.stl"], "ply"),
         (["render", &half, "-o", "out.jpg"], "png"),
@@ -233,11 +238,13 @@ fn flat_and_tiny_inputs_are_explained() {
 fn a_full_disk_is_an_error() {
     let folder = tempdir().unwrap();
     let half = fixture("half.xyz");
+    let cube = fixture("analytic/cube.off");
     for arguments in [
         &["convert", &half, "-o", "full.ply", "--force"][..],
         &["render", &half, "-o", "full.png", "--force"],
         &["delaunay", &half, "-o", "full.vtk", "--force"],
         &["evolve", &half, "-o", "full.off", "--force"],
+        &["repair", &cube, "-o", "full.stl", "--force"],
     ] {
         // A link with an extension, since the device has none.
         let link = folder.path().join(arguments[3]);

@@ -17,7 +17,7 @@ fn the_commands_work_and_make_the_picture() {
         .collect();
     assert_eq!(
         commands.len(),
-        2,
+        3,
         "the commands are found by their first words"
     );
 

@@ -147,6 +147,28 @@
 //! # Ok::<(), mesh::MeshError>(())
 //! ```
 //!
+//! ## Repair a mesh that crosses itself
+//!
+//! What comes back is closed, an oriented manifold, and free of self-intersections; vertices that stay do not move. A
+//! [`Rule`](transformesh::Rule) says what becomes of voids, of what is inside out, and of borders.
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! // A sphere, one vertex of which was pulled through the other side.
+//! let mut folded = mesh::icosphere(2)?.into_soup();
+//! folded.positions[0] *= -1.5;
+//! let segments = transformesh::intersection_segments((&folded).into(), &())?;
+//! assert!(!segments.is_empty());
+//!
+//! let (clean, report) = repair(&folded, &transformesh::Options::default())?;
+//! assert_eq!(report.remaining, 0);
+//! assert_eq!(mesh::count_self_intersections((&clean).into(), &())?, 0);
+//! // The triangle of the input that each one is a piece of:
+//! assert_eq!(report.sources.len(), clean.triangles().len());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
 //! ## Measure a mesh
 //!
 //! ```

@@ -42,6 +42,7 @@ mod points;
 mod ray;
 mod repair;
 mod rounding;
+mod segments;
 mod slivers;
 mod stitch;
 mod triangulation;
@@ -55,3 +56,4 @@ pub use morph::{
 pub use observer::{Observer, Piece, Segment};
 pub use options::{Options, Report, Rule};
 pub use repair::{repair, repair_with};
+pub use segments::intersection_segments;

@@ -28,9 +28,11 @@ pub struct Piece {
 pub trait Observer {
     /// Pairs of triangles that intersect.
     fn pairs(&mut self, _pairs: &[(TriangleId, TriangleId)]) {}
+    /// The segments in which these pairs meet, as [`crate::intersection_segments`] gives them.
+    fn segments(&mut self, _segments: &[Segment]) {}
     /// The constrained triangulation of one cut triangle.
     fn cut(&mut self, _triangle: TriangleId, _pieces: &[Piece]) {}
-    /// Whether [`Self::cut`] and [`Self::grown`] are worth calling.
+    /// Whether [`Self::segments`], [`Self::cut`] and [`Self::grown`] are worth calling.
     fn is_watching(&self) -> bool {
         false
     }

@@ -7,6 +7,7 @@ use crate::observer::{Observer, Piece};
 use crate::outside::{fates_of_open, reached, select};
 use crate::points::Points;
 use crate::rounding::broken;
+use crate::segments::segments;
 use crate::slivers::without_slivers;
 use crate::stitch::{Fate, Stitched, stitch};
 use crate::triangulation::Triangulation;
@@ -105,7 +106,8 @@ fn reoriented((mesh, mut report): (TriMesh, Report), split: &SplitReport) -> (Tr
     (mesh, report)
 }
 
-fn check(mesh: MeshView) -> Result<(), Error> {
+/// Whether vertices exist and are finite.
+pub(crate) fn check(mesh: MeshView) -> Result<(), Error> {
     if let Some(vertex) = first_not_finite(mesh.positions) {
         return Err(Error::NotFinite {
             vertex,
@@ -191,6 +193,10 @@ impl Work<'_> {
         self.observer.pairs(&pairs);
         // 2. Cut along that.
         let mut points = Points::new(&mut weld);
+        if self.observer.is_watching() {
+            let segments = segments(&weld, &pairs, &mut points, self.progress)?;
+            self.observer.segments(&segments);
+        }
         let (observer, sources) = (&mut *self.observer, &weld.sources);
         let arrangement = Arrangement::new(
             &weld,
@@ -448,7 +454,7 @@ fn topology(mesh: MeshView) -> (usize, Option<usize>) {
 }
 
 /// Generic code takes observers by type, this crate's callers by reference.
-struct Watch<'a>(&'a dyn Progress);
+pub(crate) struct Watch<'a>(pub &'a dyn Progress);
 
 impl Progress for Watch<'_> {
     fn step(&self, stage: &'static str, done: u64, total: u64) -> std::ops::ControlFlow<()> {

@@ -7,8 +7,9 @@ use crate::progress::Watch;
 use clap::Args;
 use pellicle::geometry::{Aabb, PointCloud};
 use pellicle::io::Data;
-use pellicle::mesh::{TriangleSoup, count_self_intersections, summarize};
+use pellicle::mesh::{TriangleSoup, self_intersections, summarize};
 use pellicle::spatial::median_spacing;
+use pellicle::transformesh::{Segment, intersection_segments};
 use serde::Serialize;
 use std::fmt::{self, Display};
 use std::path::{Path, PathBuf};
@@ -18,7 +19,10 @@ Example:
   pellicle info mesh.ply --json
 
 Self-intersections are pairs of triangles that share more than the vertices and edges they have in common, counted
-exactly.";
+exactly. Two triangles meet in a segment or a point, two of one plane in the segments around their overlap.";
+
+/// So many intersecting pairs at most are looked at one by one, since each takes memory.
+const MOST_PAIRS: usize = 1_000_000;
 
 /// Say what a file holds: points, or a mesh and its defects
 #[derive(Debug, Args)]
@@ -73,7 +77,22 @@ struct MeshInfo {
     area: f64,
     /// None unless closed and oriented.
     volume: Option<f64>,
-    self_intersections: u64,
+    /// Pairs of triangles.
+    self_intersections: usize,
+    /// Triangles in such pairs.
+    intersecting_triangles: usize,
+    /// Where they meet; none if the pairs are too many.
+    intersections: Option<Intersections>,
+}
+
+/// Where triangles meet that have an area.
+#[derive(Serialize)]
+struct Intersections {
+    segments: usize,
+    /// Where they meet in one point only.
+    points: usize,
+    /// Around all of them.
+    bounds: Option<Bounds>,
 }
 
 #[derive(Serialize)]
@@ -145,7 +164,20 @@ impl MeshInfo {
             reason,
         };
         let summary = summarize(soup.into()).map_err(failed)?;
-        let self_intersections = count_self_intersections(soup.into(), watch).map_err(failed)?;
+        let pairs = self_intersections(soup.into(), watch).map_err(failed)?;
+        let mut concerned: Vec<_> = pairs.iter().flat_map(|&(t, u)| [t, u]).collect();
+        concerned.sort_unstable();
+        concerned.dedup();
+        let intersections = match pairs.len() {
+            0 => Some(Intersections::of(&[])),
+            1..=MOST_PAIRS => {
+                let segments = intersection_segments(soup.into(), watch);
+                Some(Intersections::of(
+                    &segments.map_err(super::repair_failure(file))?,
+                ))
+            }
+            _ => None,
+        };
         Ok(Self {
             file: file.to_owned(),
             kind: "mesh",
@@ -172,7 +204,9 @@ impl MeshInfo {
             duplicate_triangles: summary.duplicate_triangles,
             area: summary.area,
             volume: summary.volume,
-            self_intersections,
+            self_intersections: pairs.len(),
+            intersecting_triangles: concerned.len(),
+            intersections,
         })
     }
 
@@ -198,7 +232,7 @@ impl MeshInfo {
         lines.add("borders", self.borders);
         lines.add("area", self.area);
         lines.add("volume", or_none(self.volume));
-        lines.add("self-intersections", self.self_intersections);
+        lines.add("self-intersections", self.intersections());
         for (name, count) in [
             ("isolated vertices", self.isolated_vertices),
             ("unusable triangles", self.unusable_triangles),
@@ -209,6 +243,39 @@ impl MeshInfo {
             }
         }
         lines
+    }
+}
+
+impl MeshInfo {
+    /// Self-intersections in words.
+    fn intersections(&self) -> String {
+        let pairs = self.self_intersections;
+        if pairs == 0 {
+            return pairs.to_string();
+        }
+        let mut text = format!("{pairs} pairs of {} triangles", self.intersecting_triangles);
+        if let Some(found) = &self.intersections {
+            let (segments, points) = (found.segments, found.points);
+            text += &match (segments, points) {
+                (0, 0) => String::new(),
+                (_, 0) => format!(", in {segments} segments"),
+                (0, _) => format!(", in {points} points"),
+                _ => format!(", in {segments} segments and {points} points"),
+            };
+        }
+        text
+    }
+}
+
+impl Intersections {
+    fn of(segments: &[Segment]) -> Self {
+        let points = segments.iter().filter(|s| s.ends[0] == s.ends[1]).count();
+        let ends: Vec<_> = segments.iter().flat_map(|s| s.ends).collect();
+        Self {
+            segments: segments.len() - points,
+            points,
+            bounds: Bounds::of(Aabb::of_points(&ends)),
+        }
     }
 }
 

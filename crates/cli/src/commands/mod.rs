@@ -10,6 +10,7 @@ pub mod normals;
 pub mod reconstruct;
 pub mod remesh;
 pub mod render;
+pub mod repair;
 pub mod smooth;
 
 use crate::arguments::{Global, Verb};
@@ -20,6 +21,7 @@ use pellicle::delaunay::{Options, Tetrahedralization, tetrahedralize_with};
 use pellicle::geometry::{DVec3, PointCloud};
 use pellicle::io::{self, Content, Format, ReadOptions};
 use pellicle::mesh::{MeshError, TriMesh};
+use pellicle::transformesh;
 use std::path::Path;
 
 /// Does what the verb says.
@@ -35,6 +37,7 @@ pub fn run(verb: Verb, global: &Global) -> Result<(), Failure> {
         Verb::Normals(verb) => verb.run(global, &watch),
         Verb::Smooth(verb) => verb.run(global, &watch),
         Verb::Remesh(verb) => verb.run(global, &watch),
+        Verb::Repair(verb) => verb.run(global, &watch),
         Verb::Compare(verb) => verb.run(global, &watch),
         Verb::Render(verb) => verb.run(global, &watch),
     }
@@ -67,6 +70,23 @@ fn mesh_failure(path: &Path) -> impl Fn(MeshError) -> Failure + use<> {
     move |reason| Failure::Mesh {
         path: path.clone(),
         reason,
+    }
+}
+
+/// The failure of a repair of the mesh of a file, or of a search for its intersections.
+fn repair_failure(path: &Path) -> impl Fn(transformesh::Error) -> Failure + use<> {
+    let path = path.to_owned();
+    move |reason| {
+        let path = path.clone();
+        match reason {
+            transformesh::Error::Open { edges, from, to } => Failure::Open {
+                path,
+                edges,
+                from,
+                to,
+            },
+            reason => Failure::Repair { path, reason },
+        }
     }
 }
 
