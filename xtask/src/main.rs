@@ -23,6 +23,9 @@ usage: cargo xtask <task>
   bench --delaunay [KIND:COUNT …]   against CGAL, if installed: docs/benchmarks/delaunay.md
   bench --evolution                 shapes and scans, beside others that are installed, and times:
                                     docs/benchmarks/evolution.md; PELLICLE_PYTHON names a python with open3d
+  bench --repair [FOLDER]           meshes that cross themselves, beside others that are installed:
+                                    docs/benchmarks/repair.md; FOLDER has more of them, as OFF;
+                                    PELLICLE_PYTHON names a python with libigl and manifold3d
 ";
 
 fn main() -> ExitCode {

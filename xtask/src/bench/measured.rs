@@ -27,6 +27,16 @@ pub fn run_in(
     program: &Path,
     arguments: &[&str],
 ) -> Result<Measured, String> {
+    run_within(Duration::MAX, environment, program, arguments)
+}
+
+/// [`run_in`] for so long at most; then the program is ended, and that is the reason.
+pub fn run_within(
+    limit: Duration,
+    environment: &[(&str, &str)],
+    program: &Path,
+    arguments: &[&str],
+) -> Result<Measured, String> {
     let failed = |error: std::io::Error| format!("{}: {error}", program.display());
     let start = Instant::now();
     let mut child = Command::new(program)
@@ -43,6 +53,12 @@ pub fn run_in(
         peak_bytes = resident_peak(child.id()).or(peak_bytes);
         match child.try_wait().map_err(failed)? {
             Some(status) => break status,
+            None if start.elapsed() > limit => {
+                // One that has just ended by itself cannot be ended, and need not.
+                let _ = child.kill();
+                child.wait().map_err(failed)?;
+                return Err(format!("not done within {} s", limit.as_secs()));
+            }
             None => thread::sleep(Duration::from_millis(2)),
         }
     };
@@ -117,6 +133,13 @@ mod tests {
             Some(1234 * 1024)
         );
         assert_eq!(peak_in("Name:\tx\n"), None);
+    }
+
+    #[test]
+    fn a_program_that_takes_too_long_is_ended() {
+        let limit = Duration::from_millis(1);
+        let run = run_within(limit, &[], Path::new("cargo"), &["metadata", "--no-deps"]);
+        assert!(run.is_err_and(|reason| reason.starts_with("not done")));
     }
 
     #[test]

@@ -4,19 +4,25 @@ mod delaunay;
 mod evolution;
 mod fixtures;
 mod measured;
+mod repair;
 
 use crate::{Outcome, execute};
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// `--table`, `--delaunay …` or `--evolution`.
+/// `--table`, `--delaunay …`, `--evolution` or `--repair …`.
 pub fn run(root: &Path, arguments: &[&str]) -> Outcome {
     match arguments {
         ["--table"] => fixtures::run(root),
         ["--delaunay", inputs @ ..] => delaunay::run(root, inputs),
         ["--evolution"] => evolution::run(root),
-        _ => Err("bench wants --table, --delaunay [INPUT:COUNT …], or --evolution".into()),
+        ["--repair"] => repair::run(root, None),
+        ["--repair", folder] => repair::run(root, Some(Path::new(folder))),
+        _ => Err(
+            "bench wants --table, --delaunay [INPUT:COUNT …], --evolution, or --repair [FOLDER]"
+                .into(),
+        ),
     }
 }
 
@@ -60,6 +66,12 @@ fn machine() -> String {
         .map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned())
         .unwrap_or_default();
     format!("{processor}, {cores} cores, {compiler}")
+}
+
+/// How busy the machine is: the mean number of processes that want to run, over the last minute.
+fn load() -> Option<f64> {
+    let text = std::fs::read_to_string("/proc/loadavg").ok()?;
+    text.split_whitespace().next()?.parse().ok()
 }
 
 /// Writes a page under `docs/benchmarks/`.

@@ -33,9 +33,9 @@ struct Row {
 /// Runs all and writes the page; fails if a surface is no closed manifold.
 pub fn run(root: &Path) -> Outcome {
     let programs = Programs::build(root)?;
-    let load_before = load();
+    let load_before = super::load();
     let times = times::run(&programs)?;
-    let load_after = load();
+    let load_after = super::load();
     let rows = programs.rows()?;
     let peers = peers::run(root, &programs, &rows)?;
     let goals = goals::of(&rows, &times);
@@ -140,12 +140,6 @@ impl Row {
     fn voxels(&self, key: &str) -> f64 {
         self.number(key) / self.number("voxel")
     }
-}
-
-/// How busy the machine is: the mean number of processes that want to run, over the last minute.
-fn load() -> Option<f64> {
-    let text = std::fs::read_to_string("/proc/loadavg").ok()?;
-    text.split_whitespace().next()?.parse().ok()
 }
 
 #[cfg(test)]
