@@ -32,7 +32,7 @@ pub trait Observer {
     fn segments(&mut self, _segments: &[Segment]) {}
     /// The constrained triangulation of one cut triangle.
     fn cut(&mut self, _triangle: TriangleId, _pieces: &[Piece]) {}
-    /// Whether [`Self::segments`], [`Self::cut`] and [`Self::grown`] are worth calling.
+    /// Whether the other methods are called.
     fn is_watching(&self) -> bool {
         false
     }

@@ -6,7 +6,7 @@ use crate::hash::FastMap;
 use crate::observer::{Observer, Piece};
 use crate::outside::{fates_of_open, reached, select};
 use crate::points::Points;
-use crate::rounding::broken;
+use crate::rounding::{Broken, broken, gather};
 use crate::segments::segments;
 use crate::slivers::without_slivers;
 use crate::stitch::{Fate, Stitched, stitch};
@@ -137,7 +137,7 @@ struct Work<'a> {
 }
 
 /// The surface after one round.
-#[derive(Default)]
+#[derive(Clone)]
 struct Surface {
     soup: TriangleSoup,
     sources: Vec<TriangleId>,
@@ -190,7 +190,12 @@ impl Work<'_> {
         // 1. Where triangles meet.
         let pairs = self_intersections(weld.view(), &Watch(self.progress))?;
         report.pairs = pairs.len();
-        self.observer.pairs(&pairs);
+        let of_input =
+            |&(a, b): &(TriangleId, TriangleId)| (weld.sources[a.index()], weld.sources[b.index()]);
+        if self.observer.is_watching() {
+            let pairs: Vec<_> = pairs.iter().map(of_input).collect();
+            self.observer.pairs(&pairs);
+        }
         // 2. Cut along that.
         let mut points = Points::new(&mut weld);
         if self.observer.is_watching() {
@@ -242,27 +247,62 @@ impl Work<'_> {
         Ok(Some(Surface::new(stitched, &weld, &points)))
     }
 
-    /// Repairs what rounding broke, until it broke nothing.
+    /// Repairs what rounding broke, until it broke nothing, or it gets no better: then the best is returned.
     fn settle(&mut self, mut surface: Surface, report: &mut Report) -> Result<Surface, Error> {
+        /// More intersections than this many times the fewest so far: it does not converge.
+        const WORSE: usize = 8;
+        let mut best: Option<(usize, Surface)> = None;
         loop {
-            let broken = broken(&surface.soup, |v| surface.is_rounded[v.index()]);
-            report.remaining = broken.pairs;
-            if broken.pairs + broken.flat == 0 || report.repeats >= self.options.rounds {
-                return Ok(surface);
+            // 1. Without slivers, where that helps.
+            let mut broken = surface.broken();
+            tracing::debug!(repeat = report.repeats, ?broken);
+            if broken.count() > 0 && report.repeats < self.options.rounds {
+                report.repeats += 1;
+                let cleaned = surface.clone().without_slivers(report.repeats)?;
+                let left = cleaned.broken();
+                if left.pairs <= broken.pairs {
+                    (surface, broken) = (cleaned, left);
+                }
             }
-            report.repeats += 1;
-            tracing::debug!(
-                repeat = report.repeats,
-                pairs = broken.pairs,
-                flat = broken.flat
-            );
-            surface = surface.without_slivers(report.repeats)?;
-            if surface.is_sound() {
-                report.remaining = 0;
-                return Ok(surface);
+            report.remaining = broken.count();
+            if broken.count() == 0 {
+                // Rounding may turn a thin component inside out without any intersection.
+                if report.repeats == 0 && !surface.has_thin_components()
+                    || report.repeats >= self.options.rounds
+                {
+                    return Ok(surface);
+                }
+                report.repeats += u32::from(report.repeats == 0);
+                let mut again = Report::default();
+                let Some(next) = self.round((&surface.soup).into(), &mut again)? else {
+                    return Ok(surface);
+                };
+                surface = next.after(&surface);
+                report.repeats += 1;
+                continue;
             }
+            // 2. Is it any better?
+            let hopeless = match &best {
+                Some((fewest, _)) => broken.count() > WORSE * fewest,
+                None => false,
+            };
+            if best
+                .as_ref()
+                .is_none_or(|(fewest, _)| broken.count() < *fewest)
+            {
+                best = Some((broken.count(), surface.clone()));
+            }
+            if let (Some((fewest, surface)), true) =
+                (&best, hopeless || report.repeats >= self.options.rounds)
+            {
+                report.remaining = *fewest;
+                return Ok(surface.clone());
+            }
+            // 3. From the start, with places gathered that rounding cannot keep apart.
+            surface.gather(report.repeats);
             let mut again = Report::default();
             let Some(next) = self.round((&surface.soup).into(), &mut again)? else {
+                report.remaining = 0;
                 return Ok(surface);
             };
             report.singular_edges += again.singular_edges;
@@ -353,24 +393,59 @@ impl Surface {
         self
     }
 
-    /// Whether rounding broke nothing.
-    fn is_sound(&self) -> bool {
-        let broken = broken(&self.soup, |v| self.is_rounded[v.index()]);
-        broken.pairs + broken.flat == 0
+    /// Makes rounded vertices that are closer to each other than rounding can keep apart one place, or that of a vertex of the
+    /// input.
+    fn gather(&mut self, repeat: u32) {
+        let distance = 4.0 * self.thickness(repeat);
+        gather(&mut self.soup.positions, &self.is_rounded, distance);
     }
 
-    /// Without triangles that rounding cannot keep apart: thinner than a few units in the last place of the largest
-    /// coordinate, more with every repeat.
-    fn without_slivers(self, repeat: u32) -> Result<Self, Error> {
+    /// A few units in the last place of the largest coordinate, more with every repeat.
+    fn thickness(&self, repeat: u32) -> f64 {
         let bounds = Aabb::of_points(&self.soup.positions);
         let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
-        let thickness = largest * f64::EPSILON * 4.0_f64.powi(repeat as i32);
+        largest * f64::EPSILON * 16.0_f64.powi(repeat as i32)
+    }
+
+    /// Whether a component with a rounded vertex is no thicker, on the average, than rounding can tell.
+    fn has_thin_components(&self) -> bool {
+        const UNITS: f64 = 256.0;
+        let mut sets = UnionFind::new(self.soup.positions.len());
+        for t in &self.soup.triangles {
+            sets.union(t[0].0, t[1].0);
+            sets.union(t[0].0, t[2].0);
+        }
+        let bounds = Aabb::of_points(&self.soup.positions);
+        let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
+        let (center, scale) = (bounds.center(), power_of_two_near(largest));
+        // Volume, area, and whether it has a rounded vertex.
+        let mut measures = vec![(0.0, 0.0, false); self.soup.positions.len()];
+        for t in &self.soup.triangles {
+            let [a, b, c] = t.map(|v| (self.soup.positions[v.index()] - center) / scale);
+            let measure = &mut measures[sets.find(t[0].0) as usize];
+            measure.0 += a.dot(b.cross(c)) / 6.0;
+            measure.1 += 0.5 * (b - a).cross(c - a).length();
+            measure.2 |= t.iter().any(|v| self.is_rounded[v.index()]);
+        }
+        measures
+            .iter()
+            .any(|&(volume, area, rounded)| rounded && volume.abs() <= area * UNITS * f64::EPSILON)
+    }
+
+    /// What rounding broke.
+    fn broken(&self) -> Broken {
+        broken(&self.soup, |v| self.is_rounded[v.index()])
+    }
+
+    /// Without triangles that rounding cannot keep apart.
+    fn without_slivers(self, repeat: u32) -> Result<Self, Error> {
+        let thickness = self.thickness(repeat);
+        let scale = power_of_two_near(thickness / f64::EPSILON);
         let mesh = match TriMesh::try_from(self.soup) {
             Ok(mesh) => mesh,
             Err(MeshError::NotManifold { soup, .. }) => return Ok(Self { soup, ..self }),
             Err(error) => return Err(error.into()),
         };
-        let scale = power_of_two_near(largest);
         let cleaned = without_slivers(mesh, &self.is_rounded, thickness, scale);
         let triangles = cleaned.triangles.iter();
         let vertices = cleaned.vertices.iter();
