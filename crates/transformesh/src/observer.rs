@@ -23,8 +23,8 @@ pub struct Piece {
     pub is_cut: [bool; 3],
 }
 
-/// Sees each stage; `()` sees nothing, and costs nothing. The stages come in the order of the methods, again for each
-/// repeat.
+/// Sees each stage; `()` sees nothing, and costs nothing. The stages come in the order of the methods, once: repeats
+/// after rounding are not shown.
 pub trait Observer {
     /// Pairs of triangles that intersect.
     fn pairs(&mut self, _pairs: &[(TriangleId, TriangleId)]) {}

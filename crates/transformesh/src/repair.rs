@@ -71,6 +71,7 @@ pub fn repair_with(
         progress,
         observer,
         keep_borders: false,
+        repeats: false,
     };
     let open = match work.repair(mesh) {
         Err(open @ Error::Open { .. }) => open,
@@ -134,6 +135,8 @@ struct Work<'a> {
     observer: &'a mut dyn Observer,
     /// Whether the mesh may be open, and what is seen from outside is asked for.
     keep_borders: bool,
+    /// Whether this is not the first round, which alone is shown.
+    repeats: bool,
 }
 
 /// The surface after one round.
@@ -149,6 +152,7 @@ struct Surface {
 
 impl Work<'_> {
     fn repair(&mut self, mesh: MeshView) -> Result<(TriMesh, Report), Error> {
+        self.repeats = false;
         let mut report = Report {
             volume: [signed_volume(mesh); 2],
             ..Report::default()
@@ -192,13 +196,14 @@ impl Work<'_> {
         report.pairs = pairs.len();
         let of_input =
             |&(a, b): &(TriangleId, TriangleId)| (weld.sources[a.index()], weld.sources[b.index()]);
-        if self.observer.is_watching() {
+        let is_watching = self.observer.is_watching() && !self.repeats;
+        if is_watching {
             let pairs: Vec<_> = pairs.iter().map(of_input).collect();
             self.observer.pairs(&pairs);
         }
         // 2. Cut along that.
         let mut points = Points::new(&mut weld);
-        if self.observer.is_watching() {
+        if is_watching {
             let segments = segments(&weld, &pairs, &mut points, self.progress)?;
             self.observer.segments(&segments);
         }
@@ -209,7 +214,7 @@ impl Work<'_> {
             &mut points,
             self.progress,
             |triangle, cut, points| {
-                if observer.is_watching() {
+                if is_watching {
                     let triangle = sources[triangle as usize];
                     observer.cut(triangle, &pieces_of(triangle, cut, points));
                 }
@@ -252,6 +257,7 @@ impl Work<'_> {
         /// More intersections than this many times the fewest so far: it does not converge.
         const WORSE: usize = 8;
         let mut best: Option<(usize, Surface)> = None;
+        self.repeats = true;
         loop {
             // 1. Without slivers, where that helps.
             let mut broken = surface.broken();
