@@ -100,6 +100,7 @@ pub fn repair_with(
 /// With the report's ids as they were before the mesh was oriented.
 fn reoriented((mesh, mut report): (TriMesh, Report), split: &SplitReport) -> (TriMesh, Report) {
     report.reoriented = split.reversed.len();
+    report.singular_vertices += split.split_vertices.len();
     report.unchanged &= split.is_unchanged();
     for source in &mut report.sources {
         *source = split.triangle_origin[source.index()];

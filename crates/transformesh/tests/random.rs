@@ -116,7 +116,6 @@ proptest! {
     /// The same, rotated: nothing is coplanar any more, and everything nearly. Rounding leaves slivers that are inside out,
     /// without a pair that intersects; a second repair takes them out.
     #[test]
-    #[ignore = "not repaired yet"]
     fn rotated_lattice_soups(soup in lattice_soup(5), rule in rule(), seed: u64) {
         let turn = Random(seed).rotation();
         repaired(&mapped(&soup, |p| turn * p), rule);
@@ -180,7 +179,7 @@ proptest! {
 /// About one in a thousand rotations of two bodies that touch leaves intersecting pairs, or triangles without area, after
 /// every repeat; these do.
 #[test]
-#[ignore = "not repaired yet"]
+#[ignore = "sheets that lie on each other but for rounding: docs/REPAIR.md"]
 fn contacts_that_rounding_breaks() {
     for (name, seed) in [
         ("vertex_on_face", 221),
