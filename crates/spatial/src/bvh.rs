@@ -3,7 +3,7 @@
 //! A binary tree over boxes, in one flat array in depth-first order: the left child follows its parent,
 //! the parent holds the index of the right one. Built top down: the boxes of a node are halved at the median
 //! of their centers along the axis on which those spread most; ties are decided by index, so that the tree
-//! depends on the boxes alone. Depth at most 32.
+//! depends on the boxes alone, not on the threads that build it. Depth at most 32.
 //!
 //! Every query visits a node whose bound *equals* the best so far, so results do not depend on the shape
 //! of the tree; of equally near primitives the one with the least index is reported.
@@ -59,9 +59,18 @@ impl Bvh {
             .filter(|(bounds, _)| !bounds.is_empty())
             .map(|(bounds, primitive)| Item { bounds, primitive })
             .collect();
-        let mut nodes = Vec::with_capacity(items.len().div_ceil(LEAF / 2));
+        let blank = Node {
+            bounds: Aabb::EMPTY,
+            start_or_right: 0,
+            count: 0,
+        };
+        let count = match items.len() {
+            0 => 0,
+            n => subtree_sizes(n).0,
+        };
+        let mut nodes = vec![blank; count];
         if !items.is_empty() {
-            build(&mut nodes, &mut items, 0);
+            build(&mut nodes, 0, &mut items, 0);
         }
         Self {
             nodes,
@@ -281,17 +290,37 @@ struct Item {
     primitive: u32,
 }
 
-/// Appends the subtree over `items`, which are the boxes from `start` on, and sorts them into its leaves.
-fn build(nodes: &mut Vec<Node>, items: &mut [Item], start: u32) {
+/// How many nodes the trees over n and n + 1 boxes have, n > 0.
+fn subtree_sizes(n: usize) -> (usize, usize) {
+    if n < LEAF {
+        return (1, 1);
+    }
+    // With h = n/2 rounded down: the halves of n and n + 1 are h and h + 1.
+    let (half, more) = subtree_sizes(n / 2);
+    let tree = |n: usize, inner: usize| if n <= LEAF { 1 } else { inner };
+    match n % 2 {
+        0 => (tree(n, 1 + 2 * half), tree(n + 1, 1 + half + more)),
+        _ => (tree(n, 1 + half + more), tree(n + 1, 1 + 2 * more)),
+    }
+}
+
+/// Fills in the subtree over `items`, which are the boxes from `start` on, and sorts them into its leaves. `first` is the
+/// id of the first of its nodes, which are all that it has.
+fn build(nodes: &mut [Node], first: u32, items: &mut [Item], start: u32) {
+    /// Below this many boxes a thread of its own does not pay.
+    const LARGE: usize = 4096;
     let bounds = items
         .iter()
         .fold(Aabb::EMPTY, |b, item| b.union(item.bounds));
-    let this = nodes.len();
-    nodes.push(Node {
+    let (this, below) = match nodes.split_first_mut() {
+        Some(split) => split,
+        None => return,
+    };
+    *this = Node {
         bounds,
         start_or_right: start,
         count: items.len() as u32,
-    });
+    };
     if items.len() <= LEAF {
         return;
     }
@@ -306,11 +335,21 @@ fn build(nodes: &mut Vec<Node>, items: &mut [Item], start: u32) {
             .total_cmp(&key(b))
             .then(a.primitive.cmp(&b.primitive))
     });
+    let is_large = items.len() > LARGE;
     let (left, right) = items.split_at_mut(middle);
-    build(nodes, left, start);
-    nodes[this].start_or_right = nodes.len() as u32;
-    nodes[this].count = 0;
-    build(nodes, right, start + middle as u32);
+    let left_size = subtree_sizes(left.len()).0;
+    let (left_nodes, right_nodes) = below.split_at_mut(left_size);
+    let right_first = first + 1 + left_size as u32;
+    this.start_or_right = right_first;
+    this.count = 0;
+    let mut build_left = || build(left_nodes, first + 1, left, start);
+    let mut build_right = || build(right_nodes, right_first, right, start + middle as u32);
+    if is_large {
+        rayon::join(build_left, build_right);
+    } else {
+        build_left();
+        build_right();
+    }
 }
 
 /// The axis on which a box is longest; the first of equals.
@@ -323,4 +362,22 @@ pub(crate) fn longest_axis(bounds: Aabb) -> usize {
             best
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn subtrees_have_as_many_nodes_as_they_are_given() {
+        fn count(n: usize) -> usize {
+            match n {
+                0..=LEAF => 1,
+                _ => 1 + count(n / 2) + count(n - n / 2),
+            }
+        }
+        for n in 1..3000 {
+            assert_eq!(subtree_sizes(n), (count(n), count(n + 1)), "{n}");
+        }
+    }
 }

@@ -45,6 +45,7 @@ mod rounding;
 mod segments;
 mod slivers;
 mod stitch;
+mod surface;
 mod triangulation;
 mod weld;
 mod winding;

@@ -44,6 +44,20 @@ pub(crate) struct Triangulation {
     pub constraints: Vec<[PlaneId; 3]>,
 }
 
+/// The line along which a segment is inserted: through its ends, in the triangle's plane and another one.
+struct Line {
+    from: Local,
+    to: Local,
+    plane: PlaneId,
+}
+
+/// The triangle behind a constraint that a segment has crossed.
+struct Across {
+    right: Local,
+    left: Local,
+    apex: Local,
+}
+
 /// Where a point lies.
 enum Place {
     Inside(u32),
@@ -86,12 +100,15 @@ impl Triangulation {
         self.turn * points.orient(self.axis, a, b, c)
     }
 
-    /// The side that a vertex lies on of the segment between two others in a plane.
-    fn side(&self, points: &Points, [from, to]: [Local; 2], plane: PlaneId, vertex: Local) -> Sign {
-        if vertex == from || vertex == to || self.on[vertex as usize].contains(&plane) {
+    /// The side of a line that a vertex lies on.
+    fn side(&self, points: &Points, line: &Line, vertex: Local) -> Sign {
+        if vertex == line.from
+            || vertex == line.to
+            || self.on[vertex as usize].contains(&line.plane)
+        {
             return Sign::Zero;
         }
-        self.orient(points, from, to, vertex)
+        self.orient(points, line.from, line.to, vertex)
     }
 
     /// Remembers that a plane runs through a vertex.
@@ -270,23 +287,35 @@ impl Triangulation {
         plane: PlaneId,
         points: &mut Points,
     ) {
-        let mut at = self.insert_point(from, points);
+        let from = self.insert_point(from, points);
         let to = self.insert_point(to, points);
-        self.remember(at, plane);
+        self.remember(from, plane);
         self.remember(to, plane);
+        let line = Line { from, to, plane };
+        let (mut at, mut across) = (from, None);
         while at != to {
-            at = self.advance(at, to, plane, points);
+            (at, across) = self.advance(&line, at, across, points);
             self.remember(at, plane);
         }
     }
 
-    /// Inserts the first part of a segment, up to the first vertex on it or the first constraint that it crosses, and
-    /// returns the vertex there.
-    fn advance(&mut self, from: Local, to: Local, plane: PlaneId, points: &mut Points) -> Local {
-        let (mut t, mut i) = match self.first_crossed([from, to], plane, points) {
+    /// Inserts the first part of what is left of a segment, up to the first vertex on it or the first constraint that it
+    /// crosses. Returns the vertex there and, after a constraint, what lies across it.
+    fn advance(
+        &mut self,
+        line: &Line,
+        from: Local,
+        across: Option<Across>,
+        points: &mut Points,
+    ) -> (Local, Option<Across>) {
+        let first = match across {
+            Some(across) => self.first_across(line, &across, points),
+            None => self.first_crossed(line, from, points),
+        };
+        let (mut t, mut i) = match first {
             Crossed::Vertex(vertex) => {
-                self.constrain(from, vertex, plane);
-                return vertex;
+                self.constrain(from, vertex, line.plane);
+                return (vertex, None);
             }
             Crossed::Edge(t, i) => (t, i),
         };
@@ -295,47 +324,77 @@ impl Triangulation {
             let [right, left] = [i, next(i)].map(|k| self.triangles[t as usize][k]);
             let other = self.constraints[t as usize][i];
             if other != PlaneId::NONE {
-                let crossing = points
-                    .crossing([self.plane, plane, other])
-                    .expect("segments that cross have planes that meet in a point");
-                break match self.local.get(&crossing) {
-                    Some(&vertex) => vertex,
-                    None => {
-                        let vertex = self.add_vertex(crossing);
-                        self.remember(vertex, other);
-                        self.split_edge(t, i, vertex);
-                        vertex
-                    }
-                };
+                break self.cross(line, (t, i), other, points);
             }
             crossed.push_back((right, left));
             let u = self.neighbors[t as usize][i];
             let j = self.edge_towards(u, t);
             let apex = self.triangles[u as usize][previous(j)];
             t = u;
-            i = match self.side(points, [from, to], plane, apex) {
-                Sign::Zero => break apex,
+            i = match self.side(points, line, apex) {
+                Sign::Zero => break (apex, None),
                 // The apex is at the left: the segment leaves between the right end and the apex.
                 Sign::Positive => next(j),
                 Sign::Negative => previous(j),
             };
         };
-        self.flip_away([from, end], plane, crossed, points);
-        self.constrain(from, end, plane);
+        self.flip_away(line, [from, end.0], crossed, points);
+        self.constrain(from, end.0, line.plane);
         end
     }
 
+    /// Makes the vertex in which a segment crosses a constraint, edge `i` of `t`.
+    fn cross(
+        &mut self,
+        line: &Line,
+        (t, i): (u32, usize),
+        other: PlaneId,
+        points: &mut Points,
+    ) -> (Local, Option<Across>) {
+        let crossing = points
+            .crossing([self.plane, line.plane, other])
+            .expect("segments that cross have planes that meet in a point");
+        if let Some(&vertex) = self.local.get(&crossing) {
+            return (vertex, None);
+        }
+        let [right, left] = [i, next(i)].map(|k| self.triangles[t as usize][k]);
+        let across = match self.neighbors[t as usize][i] {
+            NONE => None,
+            u => {
+                let j = self.edge_towards(u, t);
+                let apex = self.triangles[u as usize][previous(j)];
+                Some(Across { right, left, apex })
+            }
+        };
+        let vertex = self.add_vertex(crossing);
+        self.remember(vertex, other);
+        self.split_edge(t, i, vertex);
+        (vertex, across)
+    }
+
+    /// What a segment meets first behind a constraint that it has crossed: one sign tells.
+    fn first_across(&self, line: &Line, across: &Across, points: &Points) -> Crossed {
+        let edge = match self.side(points, line, across.apex) {
+            Sign::Zero => None,
+            Sign::Positive => self.find_edge(across.right, across.apex),
+            Sign::Negative => self.find_edge(across.apex, across.left),
+        };
+        match edge {
+            Some((t, i)) => Crossed::Edge(t, i),
+            None => Crossed::Vertex(across.apex),
+        }
+    }
+
     /// What a segment meets first after it leaves a vertex.
-    fn first_crossed(&self, segment: [Local; 2], plane: PlaneId, points: &Points) -> Crossed {
-        let [from, to] = segment;
+    fn first_crossed(&self, line: &Line, from: Local, points: &Points) -> Crossed {
         let fan = self.around(from);
-        let side = |vertex| self.side(points, segment, plane, vertex);
+        let side = |vertex| self.side(points, line, vertex);
         // Neighbours in the fan share a corner, so each is looked at once.
         let mut last = None;
         for (t, i) in fan {
             let [right, left] = [next(i), previous(i)].map(|k| self.triangles[t as usize][k]);
-            if right == to || left == to {
-                return Crossed::Vertex(to);
+            if right == line.to || left == line.to {
+                return Crossed::Vertex(line.to);
             }
             let of_right = match last {
                 Some((vertex, side)) if vertex == right => side,
@@ -346,7 +405,7 @@ impl Triangulation {
                 _ => side(left),
             };
             for (vertex, side) in [(right, of_right), (left, of_left)] {
-                if side == Sign::Zero && self.is_ahead(points, from, to, vertex) {
+                if side == Sign::Zero && self.is_ahead(points, from, line.to, vertex) {
                     return Crossed::Vertex(vertex);
                 }
             }
@@ -408,11 +467,11 @@ impl Triangulation {
         }
     }
 
-    /// Flips edges until none crosses the segment between two vertices. Ends, since all signs are exact (Sloan 1993).
+    /// Flips edges until none crosses the part of a line between two vertices. Ends, since all signs are exact (Sloan 1993).
     fn flip_away(
         &mut self,
-        segment: [Local; 2],
-        plane: PlaneId,
+        line: &Line,
+        ends: [Local; 2],
         mut crossed: VecDeque<(Local, Local)>,
         points: &Points,
     ) {
@@ -431,7 +490,10 @@ impl Triangulation {
                 continue;
             }
             self.flip(t, i, u, j);
-            let sides = [near, far].map(|v| self.side(points, segment, plane, v));
+            let sides = [near, far].map(|v| match ends.contains(&v) {
+                true => Sign::Zero,
+                false => self.side(points, line, v),
+            });
             if sides[0] * sides[1] == Sign::Negative {
                 let [right, left] = match sides[0] {
                     Sign::Negative => [near, far],

@@ -66,7 +66,11 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(mesh: MeshView<'a>) -> Result<Self, MeshError> {
         mesh.check_size()?;
-        let bvh = Bvh::new((0..mesh.triangles.len()).map(|t| bounds(mesh, TriangleId::new(t))));
+        let boxes: Vec<Aabb> = (0..mesh.triangles.len())
+            .into_par_iter()
+            .map(|t| bounds(mesh, TriangleId::new(t)))
+            .collect();
+        let bvh = Bvh::new(boxes);
         let tasks = bvh.overlap_tasks(TASKS);
         Ok(Self { mesh, bvh, tasks })
     }
