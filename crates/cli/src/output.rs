@@ -5,6 +5,7 @@ use crate::failure::Failure;
 use crate::interrupt;
 use crate::progress::Watch;
 use pellicle::io::{self, Content, Format, Note, Overwrite, WriteOptions, WriteReport};
+use pellicle::mesh::TriMesh;
 use serde::Serialize;
 use std::io::{ErrorKind, Write};
 use std::path::Path;
@@ -125,6 +126,22 @@ impl Target {
     /// Fails early where the file exists, is a directory, or has no directory to stand in.
     pub fn check_place(&self) -> Result<(), Failure> {
         check_place(&self.output, self.force)
+    }
+
+    /// Fails early where a further result cannot stand at `path`, or would stand where this one does.
+    pub fn check_further(&self, path: Option<&Path>) -> Result<(), Failure> {
+        match path {
+            Some(path) if path == self.output => Err(Failure::SameOutput {
+                path: path.to_owned(),
+            }),
+            Some(path) => check_place(path, self.force),
+            None => Ok(()),
+        }
+    }
+
+    /// Writes a mesh, and logs what the format could not keep.
+    pub fn write_mesh(&self, mesh: &TriMesh, watch: &Watch) -> Result<WriteReport, Failure> {
+        self.write(|| io::write_mesh(&self.output, mesh, None, &self.options(watch)))
     }
 
     /// Runs a writer, and logs what it could not keep.

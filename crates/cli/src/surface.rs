@@ -13,9 +13,9 @@ use serde::Serialize;
 pub struct Surface {
     vertices: usize,
     triangles: usize,
-    components: usize,
+    pub components: usize,
     /// Of all components together; none unless closed.
-    genus: Option<usize>,
+    pub genus: Option<usize>,
     area: f64,
     /// None unless closed.
     volume: Option<f64>,

@@ -4,10 +4,10 @@ use crate::{
     DistanceGrid, Error, Evolution, Field, Flow, Measures, One, Redistribution, Refinement, Report,
     ShortOf, Stage, StepOptions, StepReport, Topology, Upkeep,
 };
-use pellicle_geometry::{Aabb, Cancelled, Progress, UnionFind};
+use pellicle_geometry::{Aabb, Cancelled, Progress, VertexId};
 use pellicle_mesh::{
-    Projection, RemeshOptions, TargetLength, TriMesh, remesh, self_intersections, signed_volume,
-    subdivide,
+    Projection, RemeshOptions, TargetLength, TriMesh, components, remesh, self_intersections,
+    signed_volume, subdivide,
 };
 use std::time::Instant;
 
@@ -276,25 +276,21 @@ fn intersecting(mesh: &TriMesh) -> Result<Vec<usize>, Error> {
 
 /// The components of a closed mesh that hold at least some volume; `None` if none does.
 fn without_droplets(mesh: TriMesh, least: f64) -> Result<Option<TriMesh>, Error> {
-    let mut sets = UnionFind::new(mesh.positions().len());
-    for &[a, b, c] in mesh.triangles() {
-        sets.union(a.0, b.0);
-        sets.union(a.0, c.0);
-    }
+    let component_of = components((&mesh).into());
     let origin = Aabb::of_points(mesh.positions()).center();
     let mut volumes = vec![0.0; mesh.positions().len()];
     for t in mesh.triangle_ids() {
         let [a, b, c] = mesh.corners(t).map(|p| p - origin);
-        let component = sets.find(mesh.triangles()[t.index()][0].0);
-        volumes[component as usize] += a.dot(b.cross(c)) / 6.0;
+        volumes[component_of[t.index()].index()] += a.dot(b.cross(c)) / 6.0;
     }
-    let mut soup = mesh.clone().into_soup();
-    let before = soup.triangles.len();
+    let is_kept = |component: &VertexId| volumes[component.index()] >= least;
+    if component_of.iter().all(is_kept) {
+        return Ok((!component_of.is_empty()).then_some(mesh));
+    }
+    let mut soup = mesh.into_soup();
+    let mut of_triangles = component_of.iter();
     soup.triangles
-        .retain(|t| volumes[sets.find(t[0].0) as usize] >= least);
-    if soup.triangles.len() == before {
-        return Ok((before > 0).then_some(mesh));
-    }
+        .retain(|_| of_triangles.next().is_some_and(is_kept));
     soup.compact();
     match soup.triangles.is_empty() {
         true => Ok(None),

@@ -60,7 +60,7 @@ pub use edge_table::{EdgeEntry, EdgeTable};
 pub use edit::{MeshEditor, Refusal};
 pub use error::MeshError;
 pub use id::{HalfEdgeId, TriangleId};
-pub use measure::{Component, Shape, Summary, area, signed_volume, summarize};
+pub use measure::{Component, Shape, Summary, area, components, signed_volume, summarize};
 pub use quality::{AngleBounds, Quality, quality};
 pub use remesh::{
     CurvatureLength, ImproveOptions, Projection, RemeshOptions, RemeshReport, TargetLength,

@@ -204,6 +204,34 @@ pub fn summarize(mesh: MeshView) -> Result<Summary, MeshError> {
     })
 }
 
+/// For each triangle the least vertex of its component: of those that it hangs together with by common vertices.
+/// [`VertexId::NONE`] for triangles that name a vertex that does not exist. Near-linear time.
+///
+/// ```
+/// use pellicle_geometry::{DVec3, VertexId};
+/// use pellicle_mesh::{TriangleSoup, components};
+/// let soup = TriangleSoup {
+///     positions: vec![DVec3::ZERO; 8],
+///     triangles: [[0, 1, 2], [5, 6, 7], [2, 3, 4]].map(|t| t.map(VertexId)).to_vec(),
+/// };
+/// assert_eq!(components((&soup).into()), [0, 5, 0].map(VertexId));
+/// ```
+pub fn components(mesh: MeshView) -> Vec<VertexId> {
+    let exists = |t: &&[VertexId; 3]| t.iter().all(|v| v.index() < mesh.positions.len());
+    let mut sets = UnionFind::new(mesh.positions.len());
+    for [a, b, c] in mesh.triangles.iter().filter(exists) {
+        sets.union(a.0, b.0);
+        sets.union(a.0, c.0);
+    }
+    let triangles = mesh.triangles.iter();
+    triangles
+        .map(|t| match exists(&t) {
+            true => VertexId(sets.find(t[0].0)),
+            false => VertexId::NONE,
+        })
+        .collect()
+}
+
 /// The sum of the areas of the usable triangles with finite corners. Linear time.
 pub fn area(mesh: MeshView) -> f64 {
     let mut sum = Sum::default();

@@ -6,8 +6,8 @@ use crate::points::Points;
 use crate::ray::Rays;
 use crate::stitch::Fate;
 use crate::weld::Weld;
-use pellicle_geometry::{DVec3, UnionFind};
-use pellicle_mesh::{EdgeTable, MeshView, TriMesh, TriangleId, TriangleSoup};
+use pellicle_geometry::{DVec3, UnionFind, VertexId};
+use pellicle_mesh::{EdgeTable, MeshView, TriMesh, TriangleId, TriangleSoup, components};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::f64::consts::PI;
@@ -15,12 +15,12 @@ use std::f64::consts::PI;
 /// The triangles of a closed mesh without self-intersections that no other component encloses: without the borders of
 /// sealed voids, and whatever lies in them. Returns the triangles kept, and whether those are all.
 pub(crate) fn reached(mesh: &TriMesh) -> (Vec<bool>, bool) {
-    let component_of = components(mesh);
+    let component_of = components(mesh.into());
     let weld = Weld::new(mesh.into());
     let mut is_first = vec![true; mesh.positions().len()];
     let firsts: Vec<usize> = (0..weld.triangles.len())
         .filter(|&t| {
-            let component = component_of[weld.sources[t].index()] as usize;
+            let component = component_of[weld.sources[t].index()].index();
             std::mem::replace(&mut is_first[component], false)
         })
         .collect();
@@ -31,33 +31,22 @@ pub(crate) fn reached(mesh: &TriMesh) -> (Vec<bool>, bool) {
         let rays = Rays::new(&weld, firsts.len());
         for first in firsts {
             let own = component_of[weld.sources[first].index()];
-            let mut turns: Vec<(u32, i32)> = Vec::new();
+            let mut turns: Vec<(VertexId, i32)> = Vec::new();
             rays.turns(first, &mut points, |t, turn| {
                 turns.push((component_of[weld.sources[t].index()], turn));
             });
             turns.sort_unstable();
-            is_enclosed[own as usize] = turns.chunk_by(|a, b| a.0 == b.0).any(|of_one| {
+            is_enclosed[own.index()] = turns.chunk_by(|a, b| a.0 == b.0).any(|of_one| {
                 of_one[0].0 != own && of_one.iter().map(|&(_, turn)| turn).sum::<i32>() != 0
             });
         }
     }
     let kept: Vec<bool> = component_of
         .iter()
-        .map(|&component| !is_enclosed[component as usize])
+        .map(|component| !is_enclosed[component.index()])
         .collect();
     let all = !kept.contains(&false);
     (kept, all)
-}
-
-/// For each triangle the least vertex of its component.
-fn components(mesh: &TriMesh) -> Vec<u32> {
-    let mut sets = UnionFind::new(mesh.positions().len());
-    for &[a, b, c] in mesh.triangles() {
-        sets.union(a.0, b.0);
-        sets.union(a.0, c.0);
-    }
-    let triangles = mesh.triangles().iter();
-    triangles.map(|t| sets.find(t[0].0)).collect()
 }
 
 /// Some triangles of a mesh, and those that they were.

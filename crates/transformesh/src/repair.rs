@@ -12,10 +12,10 @@ use crate::triangulation::Triangulation;
 use crate::weld::Weld;
 use crate::winding::{OpenEdges, Windings};
 use crate::{Error, Options, Report, Rule};
-use pellicle_geometry::{Progress, UnionFind, first_not_finite};
+use pellicle_geometry::{Progress, VertexId, first_not_finite};
 use pellicle_mesh::{
     EdgeTable, MeshError, MeshView, OrientationPolicy, SplitOptions, SplitReport, TriMesh,
-    TriangleId, TriangleSoup, self_intersections, signed_volume,
+    TriangleId, TriangleSoup, components, self_intersections, signed_volume,
 };
 
 /// Makes the manifold that bounds the outside of a mesh that may cross itself.
@@ -400,17 +400,13 @@ fn pieces_of(triangle: TriangleId, cut: &Triangulation, points: &Points) -> Vec<
 
 /// Components, and the sum of their genus if the mesh is closed.
 fn topology(mesh: MeshView) -> (usize, Option<usize>) {
-    let mut sets = UnionFind::new(mesh.positions.len());
-    let mut is_used = vec![false; mesh.positions.len()];
-    for &triangle in mesh.triangles {
-        for v in triangle {
-            sets.union(triangle[0].0, v.0);
-            is_used[v.index()] = true;
-        }
-    }
-    let used = (0..mesh.positions.len()).filter(|&v| is_used[v]);
-    let vertices = used.clone().count();
-    let components = used.filter(|&v| sets.find(v as u32) as usize == v).count();
+    let distinct = |mut ids: Vec<VertexId>| {
+        ids.sort_unstable();
+        ids.dedup();
+        ids.len()
+    };
+    let vertices = distinct(mesh.triangles.as_flattened().to_vec());
+    let components = distinct(components(mesh));
     let (mut count, mut closed) = (0, true);
     for (_, entries) in EdgeTable::new(mesh).edges() {
         count += 1;

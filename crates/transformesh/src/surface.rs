@@ -8,8 +8,8 @@ use crate::slivers::without_slivers;
 use crate::stitch::Stitched;
 use crate::weld::{Weld, key};
 use pellicle_geometry::triangle::power_of_two_near;
-use pellicle_geometry::{Aabb, UnionFind, VertexId};
-use pellicle_mesh::{MeshError, TriMesh, TriangleId, TriangleSoup};
+use pellicle_geometry::{Aabb, VertexId};
+use pellicle_mesh::{MeshError, TriMesh, TriangleId, TriangleSoup, components};
 
 /// The surface after one round.
 #[derive(Clone)]
@@ -74,19 +74,14 @@ impl Surface {
     /// Whether a component with a rounded vertex is no thicker, on the average, than rounding can tell.
     pub(crate) fn has_thin_components(&self) -> bool {
         const UNITS: f64 = 256.0;
-        let mut sets = UnionFind::new(self.soup.positions.len());
-        for t in &self.soup.triangles {
-            sets.union(t[0].0, t[1].0);
-            sets.union(t[0].0, t[2].0);
-        }
         let bounds = Aabb::of_points(&self.soup.positions);
         let largest = bounds.min.abs().max(bounds.max.abs()).max_element();
         let (center, scale) = (bounds.center(), power_of_two_near(largest));
         // Volume, area, and whether it has a rounded vertex.
         let mut measures = vec![(0.0, 0.0, false); self.soup.positions.len()];
-        for t in &self.soup.triangles {
+        for (t, component) in (self.soup.triangles.iter()).zip(components((&self.soup).into())) {
             let [a, b, c] = t.map(|v| (self.soup.positions[v.index()] - center) / scale);
-            let measure = &mut measures[sets.find(t[0].0) as usize];
+            let measure = &mut measures[component.index()];
             measure.0 += a.dot(b.cross(c)) / 6.0;
             measure.1 += 0.5 * (b - a).cross(c - a).length();
             measure.2 |= t.iter().any(|v| self.is_rounded[v.index()]);

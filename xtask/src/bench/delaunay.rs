@@ -1,5 +1,6 @@
 //! `cargo xtask bench --delaunay`: our tetrahedralisation against CGAL's, where Debian's `libcgal-dev` is installed.
 
+use super::cgal_program;
 use super::measured::{self, Measured, median, minimum};
 use crate::{Outcome, execute};
 use std::fmt::Write as _;
@@ -41,7 +42,7 @@ pub fn run(root: &Path, inputs: &[&str]) -> Outcome {
         inputs
     };
     let (ours, scratch) = our_program(root)?;
-    let cgal = cgal_program(root, &scratch)?;
+    let cgal = cgal_program(root, &scratch, "cgal_delaunay")?;
     let compared = inputs
         .iter()
         .map(|input| compare(&ours, &cgal, &scratch, input))
@@ -71,30 +72,6 @@ fn our_program(root: &Path) -> Result<(PathBuf, PathBuf), String> {
     let scratch = target.join("bench");
     std::fs::create_dir_all(&scratch).map_err(|error| format!("{}: {error}", scratch.display()))?;
     Ok((target.join("release/examples/time_delaunay"), scratch))
-}
-
-fn cgal_program(root: &Path, scratch: &Path) -> Result<PathBuf, String> {
-    let program = scratch.join("cgal_delaunay");
-    let output = program.to_string_lossy().into_owned();
-    // CGAL's interval arithmetic wants -frounding-math of gcc.
-    execute(
-        root,
-        &[],
-        &[
-            "g++",
-            "-std=c++17",
-            "-O3",
-            "-DNDEBUG",
-            "-frounding-math",
-            "xtask/peers/cgal_delaunay.cpp",
-            "-o",
-            &output,
-            "-lgmp",
-            "-lmpfr",
-        ],
-    )
-    .map_err(|error| format!("{error}; is libcgal-dev installed?"))?;
-    Ok(program)
 }
 
 fn compare(ours: &Path, cgal: &Path, scratch: &Path, input: &str) -> Result<Compared, String> {

@@ -50,6 +50,28 @@ fn command_line(root: &Path) -> Result<(PathBuf, PathBuf), String> {
     Ok((target.join("release").join(name), scratch))
 }
 
+/// Compiles a peer that stands on CGAL, `xtask/peers/NAME.cpp`, into a folder, and returns where it is.
+fn cgal_program(root: &Path, scratch: &Path, name: &str) -> Result<PathBuf, String> {
+    let program = scratch.join(name);
+    let source = format!("xtask/peers/{name}.cpp");
+    let output = program.to_string_lossy().into_owned();
+    // CGAL's interval arithmetic wants -frounding-math of gcc.
+    let words = [
+        "g++",
+        "-std=c++17",
+        "-O3",
+        "-DNDEBUG",
+        "-frounding-math",
+        &source,
+        "-o",
+        &output,
+        "-lgmp",
+        "-lmpfr",
+    ];
+    execute(root, &[], &words).map_err(|error| format!("{error}; is libcgal-dev installed?"))?;
+    Ok(program)
+}
+
 /// The machine in a line: processor, cores, and the compiler.
 fn machine() -> String {
     let processor = std::fs::read_to_string("/proc/cpuinfo")

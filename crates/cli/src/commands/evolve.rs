@@ -11,7 +11,7 @@ use pellicle::evolution::{
     EdgeLength, Error, Evolved, Initial, Measures, Options, Outliers, Schedule, Stage, evolve_with,
 };
 use pellicle::geometry::{DVec3, Progress};
-use pellicle::io::{Content, write_mesh, write_text};
+use pellicle::io::{Content, write_text};
 use pellicle::mesh::{DistanceOptions, MeshView, TriMesh, distances};
 use pellicle::{ADAPTING_GAP, evolve_adapting};
 use serde::Serialize;
@@ -173,12 +173,7 @@ impl Evolve {
     /// Reads points, evolves, writes.
     pub fn run(self, global: &Global, watch: &Watch) -> Result<(), Failure> {
         self.target.check(Content::Mesh)?;
-        if let Some(path) = &self.csv {
-            if *path == self.target.output {
-                return Err(Failure::SameOutput { path: path.clone() });
-            }
-            output::check_place(path, self.target.force)?;
-        }
+        self.target.check_further(self.csv.as_deref())?;
         let folder = self.snapshots.as_deref();
         let snapshots = folder
             .map(|folder| {
@@ -208,9 +203,7 @@ impl Evolve {
             }
         };
         let mesh = &evolved.mesh;
-        let written = self
-            .target
-            .write(|| write_mesh(&self.target.output, mesh, None, &self.target.options(watch)))?;
+        let written = self.target.write_mesh(mesh, watch)?;
         let snapshots = self.keep(record, Some(mesh))?;
 
         let done = self.done(cloud.positions(), &evolved, snapshots, written.bytes, watch)?;

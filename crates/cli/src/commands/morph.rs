@@ -8,7 +8,7 @@ use crate::surface::Surface;
 use crate::{interrupt, output};
 use clap::{Args, ValueEnum};
 use pellicle::geometry::Progress;
-use pellicle::io::{Content, read_mesh, write_mesh, write_text};
+use pellicle::io::{Content, read_mesh, write_text};
 use pellicle::mesh::{MeshView, TriMesh, TriangleSoup};
 use pellicle::transformesh::{
     Error, MorphEnd, MorphOptions, MorphReport, MorphStep, Placement, morph_with,
@@ -103,8 +103,6 @@ struct Done {
     arrived: bool,
     steps: u32,
     edge_length: f64,
-    components: usize,
-    genus: usize,
     target_components: usize,
     target_genus: usize,
     /// Components of the target that the surface did not come to.
@@ -124,12 +122,7 @@ impl Morph {
     /// Reads both, morphs, writes.
     pub fn run(self, global: &Global, watch: &Watch) -> Result<(), Failure> {
         self.target.check(Content::Mesh)?;
-        if let Some(path) = &self.csv {
-            if *path == self.target.output {
-                return Err(Failure::SameOutput { path: path.clone() });
-            }
-            output::check_place(path, self.target.force)?;
-        }
+        self.target.check_further(self.csv.as_deref())?;
         let (every, force) = (self.every.get(), self.target.force);
         let folder = self.snapshots.as_deref();
         let snapshots = folder
@@ -153,14 +146,7 @@ impl Morph {
                 return Err(failure);
             }
         };
-        let written = self.target.write(|| {
-            write_mesh(
-                &self.target.output,
-                &mesh,
-                None,
-                &self.target.options(watch),
-            )
-        })?;
+        let written = self.target.write_mesh(&mesh, watch)?;
         let snapshots = self.keep(record, Some(&mesh))?;
         let done = self.done(&mesh, report, snapshots, written.bytes, watch)?;
         done.log();
@@ -229,8 +215,6 @@ impl Morph {
             arrived: report.end == MorphEnd::Arrived,
             steps: report.steps,
             edge_length: report.edge_length,
-            components: report.topology.components(),
-            genus: report.topology.genus(),
             target_components: report.target_topology.components(),
             target_genus: report.target_topology.genus(),
             missed: report.missed,
@@ -269,10 +253,8 @@ impl Done {
     fn log(&self) {
         self.surface.log();
         tracing::info!(
-            "{} steps; {} components of genus {} in all; topology changed in {} repairs, and {} pairs of triangles crossed",
+            "{} steps; topology changed in {} repairs, and {} pairs of triangles crossed",
             self.steps,
-            self.components,
-            self.genus,
             self.topology_changes,
             self.repaired_pairs
         );

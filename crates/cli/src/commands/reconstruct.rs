@@ -7,7 +7,7 @@ use crate::output;
 use crate::progress::Watch;
 use clap::{Args, ValueEnum};
 use pellicle::cocone::{self, reconstruct_with};
-use pellicle::io::{Content, write_mesh};
+use pellicle::io::Content;
 use serde::Serialize;
 use std::path::PathBuf;
 
@@ -104,9 +104,7 @@ impl Reconstruct {
             })?;
         drop(tetrahedralization);
         let (mesh, report) = (&reconstruction.mesh, &reconstruction.report);
-        let written = self
-            .target
-            .write(|| write_mesh(&self.target.output, mesh, None, &self.target.options(watch)))?;
+        let written = self.target.write_mesh(mesh, watch)?;
         tracing::info!(
             "{} points, {} used; {} triangles, {}",
             cloud.len(),

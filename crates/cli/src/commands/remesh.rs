@@ -7,7 +7,7 @@ use crate::progress::Watch;
 use crate::surface::Surface;
 use clap::Args;
 use pellicle::geometry::Aabb;
-use pellicle::io::{Content, write_mesh};
+use pellicle::io::Content;
 use pellicle::mesh::{
     CurvatureLength, Projection, Quality, RemeshOptions, RemeshReport, TargetLength, TriMesh,
     remesh,
@@ -84,14 +84,7 @@ impl Remesh {
         let before = super::read_manifold(&self.input, watch)?;
         let (mesh, report) = remesh(&before, &self.options(&before), watch)
             .map_err(super::mesh_failure(&self.input))?;
-        let written = self.target.write(|| {
-            write_mesh(
-                &self.target.output,
-                &mesh,
-                None,
-                &self.target.options(watch),
-            )
-        })?;
+        let written = self.target.write_mesh(&mesh, watch)?;
         let surface =
             Surface::of(&mesh, watch).map_err(super::mesh_failure(&self.target.output))?;
         let done = self.done(&before, &report, surface, written.bytes);

@@ -7,7 +7,7 @@ use crate::output::{self, digits};
 use crate::progress::Watch;
 use crate::surface::Surface;
 use clap::{Args, ValueEnum};
-use pellicle::io::{self, Content, Note, write_mesh, write_text};
+use pellicle::io::{self, Content, Note, write_text};
 use pellicle::mesh::TriMesh;
 use pellicle::transformesh::{self, Options, Report, repair_with};
 use serde::Serialize;
@@ -83,11 +83,8 @@ struct Done {
     /// Pairs that rounding made and that still intersect.
     remaining: usize,
     components_before: usize,
-    components: usize,
     /// None unless the input is a closed manifold.
     genus_before: Option<usize>,
-    /// None unless the result is closed.
-    genus: Option<usize>,
     /// Signed, overlaps counted each time.
     volume_before: f64,
     /// Signed; the surface's `volume` is none unless it is closed.
@@ -111,12 +108,7 @@ impl Repair {
     /// Reads a mesh, repairs it, writes it.
     pub fn run(self, global: &Global, watch: &Watch) -> Result<(), Failure> {
         self.target.check(Content::Mesh)?;
-        if let Some(path) = &self.report {
-            if *path == self.target.output {
-                return Err(Failure::SameOutput { path: path.clone() });
-            }
-            output::check_place(path, self.target.force)?;
-        }
+        self.target.check_further(self.report.as_deref())?;
         let read = io::read_mesh(&self.input, &super::read_options(watch))?;
         output::log_notes(&self.input, &read.report.notes);
         let options = Options {
@@ -125,14 +117,7 @@ impl Repair {
         };
         let (mesh, report) = repair_with((&read.soup).into(), &options, watch, &mut ())
             .map_err(super::repair_failure(&self.input))?;
-        let written = self.target.write(|| {
-            write_mesh(
-                &self.target.output,
-                &mesh,
-                None,
-                &self.target.options(watch),
-            )
-        })?;
+        let written = self.target.write_mesh(&mesh, watch)?;
         if written
             .notes
             .iter()
@@ -175,9 +160,7 @@ impl Repair {
             repeats: report.repeats,
             remaining: report.remaining,
             components_before: report.components[0],
-            components: report.components[1],
             genus_before: report.genus[0],
-            genus: report.genus[1],
             volume_before: report.volume[0],
             volume_after: report.volume[1],
             closed: mesh.is_closed(),
@@ -233,9 +216,9 @@ impl Done {
         tracing::info!(
             "components {} -> {}, genus {} -> {}, volume {} -> {}",
             self.components_before,
-            self.components,
+            self.surface.components,
             genus(self.genus_before),
-            genus(self.genus),
+            genus(self.surface.genus),
             digits(self.volume_before),
             digits(self.volume_after)
         );

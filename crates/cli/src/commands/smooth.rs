@@ -8,7 +8,7 @@ use crate::surface::Surface;
 use clap::Args;
 use pellicle::evolution::{Error, Evolution, One, Redistribution, StepOptions};
 use pellicle::geometry::{Cancelled, Progress};
-use pellicle::io::{Content, write_mesh};
+use pellicle::io::Content;
 use pellicle::mesh::{AngleBounds, TriMesh, quality, signed_volume};
 use serde::Serialize;
 use std::path::PathBuf;
@@ -67,14 +67,7 @@ impl Smooth {
                 path: self.input.clone(),
                 reason,
             })?;
-        let written = self.target.write(|| {
-            write_mesh(
-                &self.target.output,
-                &mesh,
-                None,
-                &self.target.options(watch),
-            )
-        })?;
+        let written = self.target.write_mesh(&mesh, watch)?;
         let done = Done {
             surface: Surface::of(&mesh, watch).map_err(super::mesh_failure(&self.target.output))?,
             steps: self.steps,

@@ -2,12 +2,12 @@
 
 use super::motion::Motion;
 use super::options::{MorphEnd, MorphOptions, MorphReport, MorphStep, Topology};
-use super::target::{Target, components, topology};
+use super::target::{Target, topology};
 use crate::{Error, Options, repair_with};
-use pellicle_geometry::{Aabb, Progress};
+use pellicle_geometry::{Aabb, Progress, VertexId};
 use pellicle_mesh::{
     DistanceOptions, Projection, RemeshOptions, TargetLength, TriMesh, TriangleSoup, compare,
-    remesh, summarize,
+    components, remesh, summarize,
 };
 
 /// A component whose box has a diagonal below this many edges is a crumb.
@@ -154,14 +154,14 @@ impl<'a> State<'a> {
     }
 
     fn drop_crumbs(&mut self) -> Result<(), Error> {
-        let component = components(&self.mesh);
+        let component = components((&self.mesh).into());
         let mut boxes = vec![Aabb::EMPTY; self.mesh.positions().len()];
         for (t, &c) in self.mesh.triangle_ids().zip(&component) {
             let corners = self.mesh.corners(t);
-            boxes[c as usize] = boxes[c as usize].union(Aabb::of_points(&corners));
+            boxes[c.index()] = boxes[c.index()].union(Aabb::of_points(&corners));
         }
         let is_small = |b: &Aabb| b.diagonal() < CRUMB * self.edge;
-        let is_crumb = |c: u32| is_small(&boxes[c as usize]);
+        let is_crumb = |c: VertexId| is_small(&boxes[c.index()]);
         let crumbs = boxes
             .iter()
             .filter(|b| !b.is_empty() && is_small(b))

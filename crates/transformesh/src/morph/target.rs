@@ -3,8 +3,8 @@
 use super::options::{MorphOptions, Topology};
 use super::start::repaired;
 use crate::Error;
-use pellicle_geometry::{Aabb, Progress, UnionFind};
-use pellicle_mesh::{MeshView, SignedDistance, TriMesh, summarize};
+use pellicle_geometry::{Aabb, Progress, VertexId};
+use pellicle_mesh::{MeshView, SignedDistance, TriMesh, components, summarize};
 
 pub(super) struct Target {
     pub(super) mesh: TriMesh,
@@ -14,7 +14,7 @@ pub(super) struct Target {
     pub(super) edge: f64,
     pub(super) topology: Topology,
     /// For each triangle a name of its component.
-    component: Vec<u32>,
+    component: Vec<VertexId>,
     pub(super) filled: usize,
 }
 
@@ -35,7 +35,7 @@ impl Target {
                 .edge_length
                 .unwrap_or(mean.clamp(diagonal / 400.0, diagonal / 16.0)),
             topology: topology(&mesh)?,
-            component: components(&mesh),
+            component: components((&mesh).into()),
             distance,
             bounds,
             mesh,
@@ -67,14 +67,4 @@ pub(super) fn topology(mesh: &TriMesh) -> Result<Topology, Error> {
         .collect();
     genera.sort_unstable();
     Ok(Topology { genera })
-}
-
-/// For each triangle a name of its component.
-pub(super) fn components(mesh: &TriMesh) -> Vec<u32> {
-    let mut sets = UnionFind::new(mesh.positions().len());
-    for [a, b, c] in mesh.triangles() {
-        sets.union(a.0, b.0);
-        sets.union(a.0, c.0);
-    }
-    mesh.triangles().iter().map(|t| sets.find(t[0].0)).collect()
 }

@@ -1,8 +1,7 @@
 //! Other programs on the same clouds: each is run where it is installed, and its mesh measured as ours is.
 
 use super::{ALONE, Programs, Row};
-use crate::bench::measured;
-use crate::execute;
+use crate::bench::{cgal_program, measured};
 use std::path::{Path, PathBuf};
 
 /// The octree's depth of screened Poisson.
@@ -37,7 +36,7 @@ pub fn run(root: &Path, programs: &Programs, ours: &[Row]) -> Result<Vec<Peer>, 
     } else {
         eprintln!("no python with open3d: PELLICLE_PYTHON may name one");
     }
-    match alpha_wrap(root, programs) {
+    match cgal_program(root, &programs.scratch, "cgal_alpha_wrap") {
         Ok(program) => runs.extend(ALPHAS.map(|alpha| Program {
             name: format!("alpha wrapping, 1/{alpha}"),
             program: program.clone(),
@@ -112,24 +111,4 @@ fn python() -> Option<PathBuf> {
     let python = PathBuf::from(python);
     let tried = measured::run(&python, &["-c", "import open3d, numpy"]);
     tried.is_ok().then_some(python)
-}
-
-fn alpha_wrap(root: &Path, programs: &Programs) -> Result<PathBuf, String> {
-    let program = programs.scratch.join("cgal_alpha_wrap");
-    let output = program.to_string_lossy().into_owned();
-    // CGAL's interval arithmetic wants -frounding-math of gcc.
-    let words = [
-        "g++",
-        "-std=c++17",
-        "-O3",
-        "-DNDEBUG",
-        "-frounding-math",
-        "xtask/peers/cgal_alpha_wrap.cpp",
-        "-o",
-        &output,
-        "-lgmp",
-        "-lmpfr",
-    ];
-    execute(root, &[], &words).map_err(|error| format!("{error}; is libcgal-dev installed?"))?;
-    Ok(program)
 }

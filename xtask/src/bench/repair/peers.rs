@@ -1,7 +1,7 @@
 //! The programs that are compared, each behind a driver that prints what its own work took.
 
 use super::{ALONE, Programs};
-use crate::bench::measured;
+use crate::bench::{cgal_program, measured};
 use crate::execute;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -60,7 +60,7 @@ pub fn installed(root: &Path, programs: &Programs) -> Vec<Peer> {
     let manifold = python("manifold3d");
     let driver = &["xtask/peers/manifold_union.py"];
     add("Manifold", manifold, driver, true);
-    let cgal = cgal(root, programs);
+    let cgal = cgal_program(root, &programs.scratch, "cgal_repair");
     add("CGAL autorefinement", cgal.clone(), &["autorefine"], true);
     add("CGAL detection", cgal, &["detect"], false);
     for peer in &mut peers {
@@ -137,26 +137,6 @@ fn manifold_rust(root: &Path, programs: &Programs) -> Result<PathBuf, String> {
     execute(root, &[], &words)?;
     let name = format!("manifold_rust_union{}", std::env::consts::EXE_SUFFIX);
     Ok(target.join("release").join(name))
-}
-
-fn cgal(root: &Path, programs: &Programs) -> Result<PathBuf, String> {
-    let program = programs.scratch.join("cgal_repair");
-    let output = program.to_string_lossy().into_owned();
-    // CGAL's interval arithmetic wants -frounding-math of gcc.
-    let words = [
-        "g++",
-        "-std=c++17",
-        "-O3",
-        "-DNDEBUG",
-        "-frounding-math",
-        "xtask/peers/cgal_repair.cpp",
-        "-o",
-        &output,
-        "-lgmp",
-        "-lmpfr",
-    ];
-    execute(root, &[], &words).map_err(|error| format!("{error}; is libcgal-dev installed?"))?;
-    Ok(program)
 }
 
 #[cfg(test)]
