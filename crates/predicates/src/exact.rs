@@ -11,7 +11,8 @@
 //! and a library would be heavy.
 
 use crate::{
-    Sign, determinant,
+    Sign,
+    determinant::{self, Ring},
     integer::{Integer, Parts},
 };
 use glam::{DVec2, DVec3};
@@ -59,4 +60,16 @@ pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign
     let [a, b, c, d, e] = integers([a, b, c, d, e].map(|p| p.to_array()));
     let [a, b, c, d] = [a, b, c, d].map(|p| determinant::translated(&p, &e));
     determinant::insphere(&a, &b, &c, &d).sign()
+}
+
+/// The sign of |a − p|² − |b − p|².
+#[cold]
+#[inline(never)]
+pub(crate) fn compare_distance(p: DVec3, a: DVec3, b: DVec3) -> Sign {
+    let [a, b, p] = integers([a, b, p].map(|p| p.to_array()));
+    let [a, b] = [a, b].map(|q| {
+        let [x, y, z] = determinant::translated(&q, &p);
+        x.square().add(&y.square()).add(&z.square())
+    });
+    a.sub(&b).sign()
 }

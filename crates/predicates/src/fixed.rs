@@ -183,3 +183,9 @@ pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Opti
     let second = weighted(&a, bcd).minus(weighted(&b, cda));
     Some(first.plus(second).sign())
 }
+
+/// The sign of |a − p|² − |b − p|².
+pub(crate) fn compare_distance(p: DVec3, a: DVec3, b: DVec3) -> Option<Sign> {
+    let [a, b] = differences([a, b].map(|p| p.to_array()), p.to_array())?;
+    Some(lift(&a).minus(lift(&b)).sign())
+}

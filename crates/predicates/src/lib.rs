@@ -2,7 +2,7 @@
 //! perturbation.
 //!
 //! The data are points, [`DVec2`] and [`DVec3`]; the verbs are [`orient2d`], [`orient3d`], [`incircle`] and
-//! [`insphere`], each of which returns a [`Sign`].
+//! [`insphere`], each of which returns a [`Sign`]; [`compare_distance`] says which of two points is nearer.
 //!
 //! ```
 //! use glam::DVec3;
@@ -47,6 +47,7 @@ use glam::{DVec2, DVec3};
 use statistics::{Predicate, Stage, decided};
 
 mod determinant;
+mod distance;
 mod exact;
 mod filter;
 mod fixed;
@@ -62,6 +63,7 @@ pub mod sos;
 pub mod statistics;
 pub mod world;
 
+pub use distance::compare_distance;
 pub use filter::{StaticFilter, StaticFilter2};
 pub use sign::Sign;
 

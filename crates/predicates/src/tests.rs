@@ -3,6 +3,7 @@
 //! `PELLICLE_CASES` sets the number of cases of each property.
 
 mod coverage;
+mod distance;
 mod implicit;
 mod inputs;
 mod oracle;
