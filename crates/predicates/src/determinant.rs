@@ -1,4 +1,4 @@
-//! The four determinants, each written once and evaluated over doubles, intervals, integers and
+//! The five determinants, each written once and evaluated over doubles, intervals, integers and
 //! polynomials alike.
 //!
 //! The arguments are vectors already translated by the last point of the predicate. The order of the
@@ -66,10 +66,32 @@ pub(crate) fn incircle<R: Ring>(a: &[R; 2], b: &[R; 2], c: &[R; 2]) -> R {
     (lift(a).mul(&minor(b, c)).add(&lift(b).mul(&minor(c, a)))).add(&lift(c).mul(&minor(a, b)))
 }
 
-/// Positive when 0 lies inside the sphere through the positively oriented a, b, c, d. The six minors in x
-/// and y are shared by the four determinants that weight the lifts.
+/// Positive when 0 lies inside the sphere through the positively oriented a, b, c, d.
 #[inline(always)]
 pub(crate) fn insphere<R: Ring>(a: &[R; 3], b: &[R; 3], c: &[R; 3], d: &[R; 3]) -> R {
+    insphere_lifted(a, b, c, d, &lift(a), &lift(b), &lift(c), &lift(d))
+}
+
+/// |p|².
+#[inline(always)]
+pub(crate) fn lift<R: Ring>(p: &[R; 3]) -> R {
+    (p[0].square().add(&p[1].square())).add(&p[2].square())
+}
+
+/// [`insphere`] of vectors whose lifts are known. The six minors in x and y are shared by the four
+/// determinants that weight the lifts.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "four vectors and their lifts")]
+pub(crate) fn insphere_lifted<R: Ring>(
+    a: &[R; 3],
+    b: &[R; 3],
+    c: &[R; 3],
+    d: &[R; 3],
+    lift_a: &R,
+    lift_b: &R,
+    lift_c: &R,
+    lift_d: &R,
+) -> R {
     let ab = minor(a, b);
     let bc = minor(b, c);
     let cd = minor(c, d);
@@ -80,6 +102,22 @@ pub(crate) fn insphere<R: Ring>(a: &[R; 3], b: &[R; 3], c: &[R; 3], d: &[R; 3]) 
     let bcd = (b[2].mul(&cd).sub(&c[2].mul(&bd))).add(&d[2].mul(&bc));
     let cda = (c[2].mul(&da).add(&d[2].mul(&ac))).add(&a[2].mul(&cd));
     let dab = (d[2].mul(&ab).add(&a[2].mul(&bd))).add(&b[2].mul(&da));
-    let lift = |p: &[R; 3]| (p[0].square().add(&p[1].square())).add(&p[2].square());
-    (lift(c).mul(&dab).sub(&lift(d).mul(&abc))).add(&(lift(a).mul(&bcd).sub(&lift(b).mul(&cda))))
+    (lift_c.mul(&dab).sub(&lift_d.mul(&abc))).add(&(lift_a.mul(&bcd).sub(&lift_b.mul(&cda))))
+}
+
+/// Positive when the lift of 0 with weight zero lies below the hyperplane through the lifts of the positively
+/// oriented points with the given weights.
+#[inline(always)]
+pub(crate) fn power_test<R: Ring>([a, b, c, d]: [&[R; 3]; 4], weights: &[R; 4]) -> R {
+    let [wa, wb, wc, wd] = weights;
+    insphere_lifted(
+        a,
+        b,
+        c,
+        d,
+        &lift(a).sub(wa),
+        &lift(b).sub(wb),
+        &lift(c).sub(wc),
+        &lift(d).sub(wd),
+    )
 }

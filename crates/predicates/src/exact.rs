@@ -1,7 +1,8 @@
 //! Signs of the determinants over integers of any width: the last stage, right for every finite double.
 //!
 //! All coordinates of a call are multiples of one power of two, the smallest last bit among them. Divided
-//! by it they are integers, and the sign of a homogeneous determinant does not change.
+//! by it they are integers, and the sign of a homogeneous determinant does not change. Weights, squares of
+//! lengths, count in squares of that unit, which is taken so fine that they are integers too.
 //!
 //! *Why integers, and our own.* Expansions of doubles (Shewchuk 1997) are exact only while no product
 //! overflows or underflows, so each call would need a range check and a second route beside it. Integers
@@ -20,14 +21,21 @@ use glam::{DVec2, DVec3};
 /// The coordinates as integers, in units of their smallest last bit.
 fn integers<const D: usize, const N: usize>(points: [[f64; D]; N]) -> [[Integer; D]; N] {
     let parts = points.map(|p| p.map(Parts::of));
-    let nonzero = parts.iter().flatten().filter(|p| p.mantissa != 0);
-    let unit = nonzero.map(|p| p.exponent).min().unwrap_or(0);
-    parts.map(|p| {
-        p.map(|c| match c.mantissa {
-            0 => Integer::ZERO,
-            mantissa => Integer::shifted(mantissa, (c.exponent - unit) as u32),
-        })
-    })
+    let unit = smallest_exponent(parts.iter().flatten()).unwrap_or(0);
+    parts.map(|p| p.map(|c| in_units(c, unit)))
+}
+
+fn smallest_exponent<'a>(parts: impl Iterator<Item = &'a Parts>) -> Option<i32> {
+    let nonzero = parts.filter(|p| p.mantissa != 0);
+    nonzero.map(|p| p.exponent).min()
+}
+
+/// The number divided by 2^unit, where that is an integer.
+fn in_units(part: Parts, unit: i32) -> Integer {
+    match part.mantissa {
+        0 => Integer::ZERO,
+        mantissa => Integer::shifted(mantissa, (part.exponent - unit) as u32),
+    }
 }
 
 #[cold]
@@ -72,4 +80,19 @@ pub(crate) fn compare_distance(p: DVec3, a: DVec3, b: DVec3) -> Sign {
         x.square().add(&y.square()).add(&z.square())
     });
     a.sub(&b).sign()
+}
+
+#[cold]
+#[inline(never)]
+pub(crate) fn power_test(points: [DVec3; 5], weights: [f64; 5]) -> Sign {
+    let parts = points.map(|p| p.to_array().map(Parts::of));
+    let weights = weights.map(Parts::of);
+    let of_points = smallest_exponent(parts.iter().flatten()).unwrap_or(0);
+    let of_weights = smallest_exponent(weights.iter()).unwrap_or(0);
+    let unit = of_points.min(of_weights.div_euclid(2));
+    let [a, b, c, d, e] = parts.map(|p| p.map(|c| in_units(c, unit)));
+    let weights = weights.map(|w| in_units(w, 2 * unit));
+    let [a, b, c, d] = [a, b, c, d].map(|p| determinant::translated(&p, &e));
+    let weights = std::array::from_fn(|i| weights[i].sub(&weights[4]));
+    determinant::power_test([&a, &b, &c, &d], &weights).sign()
 }

@@ -19,9 +19,14 @@
 //! | orient3d | 3 | 1 · and 1 − | 1 · and 2 + | | | 8 | 6 XYZ | 48u XYZ |
 //! | incircle | 4 | 1 · and 1 − | | 1 · and 1 + | 1 · and 2 + | 11 | 3·2 XY (X² + Y²) | 66u XY (X² + Y²) |
 //! | insphere | 5 | 1 · and 1 − | 1 · and 2 + | 1 · and 2 + | 1 · and 2 + | 16 | 4·6 XYZ (X² + Y² + Z²) | 384u XYZ (X² + Y² + Z²) |
+//! | power test | 5 | 1 · and 1 − | 1 · and 2 + | 1 · and 2 + and 1 − | 1 · and 2 + | 17 | 4·6 XYZ (X² + Y² + Z² + W) | 408u XYZ (X² + Y² + Z² + W) |
 //!
 //! With |x|, |y| ≤ M, X = Y = 2M and the first line reads 2⁻⁴⁸ M², the static bound of Teillaud's lecture
 //! on robustness.
+//!
+//! *Weights* are squares of lengths. W bounds the computed differences of weights, which round like those of
+//! coordinates. A monomial with a weight has 13 roundings only: one for its difference, three for those of
+//! coordinates, then minor, 3×3, subtraction from the lift, product and sum. The bound takes 17 for all.
 //!
 //! *Slack.* The factors below are larger by 1/400 or more. That covers the difference between γ and ku (a
 //! relative 2⁻⁴⁸), the rounding of the bound itself (eight operations) and underflow, as follows.
@@ -33,11 +38,20 @@
 //! factors, that is 2⁻¹⁰⁷⁵⁺⁶ / (2⁻⁴⁵ XY) ≤ 2⁻⁶⁴⁴. The same holds for the lifts and the 3×3 determinants, and
 //! the last four products add 2⁻¹⁰⁷³, a relative 2⁻⁷⁸. Sums and differences never underflow wrongly.
 //!
+//! For weights the filter stands aside unless W ≤ 2³⁸⁰ (a difference that overflows is infinite): then nothing
+//! exceeds 96 · 2⁹⁵⁰. From below W needs no limit, because a weight enters by sums alone and the bound, which
+//! has the coordinates' part, is not smaller than before.
+//!
 //! # Static and semi-static
 //!
-//! The bounds grow with X, Y, Z, so any upper bounds of the computed differences will do: the largest of
-//! the call (semi-static; Meyer and Pion 2008), or the extents of a box that holds all points (static):
+//! The bounds grow with X, Y, Z, W, so any upper bounds of the computed differences will do: the largest of
+//! the call (semi-static; Meyer and Pion 2008), or the extents of a box that holds all points, and of
+//! an interval that holds all weights (static):
 //! rounding is monotone, so no computed difference exceeds the computed extent.
+
+mod plane;
+
+pub use plane::StaticFilter2;
 
 use crate::{
     Sign, determinant, lifted,
@@ -51,10 +65,13 @@ const ORIENT2D: f64 = 8.02 * UNIT_ROUNDOFF;
 const ORIENT3D: f64 = 48.12 * UNIT_ROUNDOFF;
 const INCIRCLE: f64 = 66.17 * UNIT_ROUNDOFF;
 const INSPHERE: f64 = 385.0 * UNIT_ROUNDOFF;
+const POWER_TEST: f64 = 409.1 * UNIT_ROUNDOFF;
 
 /// 2⁻¹⁹⁰ and 2¹⁹⁰, between which the bounds above hold.
 const TINY: f64 = f64::from_bits((1023 - 190) << 52);
 const HUGE: f64 = f64::from_bits((1023 + 190) << 52);
+/// 2³⁸⁰, for weights.
+const HUGE_WEIGHT: f64 = HUGE * HUGE;
 
 #[inline(always)]
 fn in_range<const D: usize>(extents: [f64; D]) -> bool {
@@ -62,23 +79,28 @@ fn in_range<const D: usize>(extents: [f64; D]) -> bool {
 }
 
 #[inline(always)]
-fn orient2d_bound([x, y]: [f64; 2]) -> f64 {
+pub(crate) fn orient2d_bound([x, y]: [f64; 2]) -> f64 {
     ORIENT2D * x * y
 }
 
 #[inline(always)]
-fn orient3d_bound([x, y, z]: [f64; 3]) -> f64 {
+pub(crate) fn orient3d_bound([x, y, z]: [f64; 3]) -> f64 {
     ORIENT3D * x * y * z
 }
 
 #[inline(always)]
-fn incircle_bound([x, y]: [f64; 2]) -> f64 {
+pub(crate) fn incircle_bound([x, y]: [f64; 2]) -> f64 {
     INCIRCLE * x * y * (x * x + y * y)
 }
 
 #[inline(always)]
-fn insphere_bound([x, y, z]: [f64; 3]) -> f64 {
+pub(crate) fn insphere_bound([x, y, z]: [f64; 3]) -> f64 {
     INSPHERE * x * y * z * (x * x + y * y + z * z)
+}
+
+#[inline(always)]
+pub(crate) fn power_test_bound([x, y, z]: [f64; 3], weight: f64) -> f64 {
+    POWER_TEST * x * y * z * (x * x + y * y + z * z + weight)
 }
 
 /// The sign of `value` if it is surely that of the exact determinant.
@@ -172,6 +194,41 @@ pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Opti
     })
 }
 
+/// The weights minus the last one.
+#[inline(always)]
+fn weight_differences([a, b, c, d, e]: [f64; 5]) -> [f64; 4] {
+    [a - e, b - e, c - e, d - e]
+}
+
+#[inline(always)]
+pub(crate) fn power_test(
+    a: DVec3,
+    b: DVec3,
+    c: DVec3,
+    d: DVec3,
+    e: DVec3,
+    weights: [f64; 5],
+) -> Option<Sign> {
+    let v = [
+        (a - e).to_array(),
+        (b - e).to_array(),
+        (c - e).to_array(),
+        (d - e).to_array(),
+    ];
+    let weights = weight_differences(weights);
+    let spread = weights
+        .iter()
+        .fold(0.0, |spread, w| f64::max(spread, w.abs()));
+    match spreads(&v) {
+        Ok(spreads) if spread <= HUGE_WEIGHT => certain(
+            determinant::power_test([&v[0], &v[1], &v[2], &v[3]], &weights),
+            power_test_bound(spreads, spread),
+        ),
+        Err(Unfit::Flat) => Some(Sign::Zero),
+        _ => None,
+    }
+}
+
 /// Static filters for points of space inside a known box: each test costs one comparison beside the
 /// determinant itself (77 operations for the in-sphere test, 23 for the orientation).
 ///
@@ -198,6 +255,8 @@ pub struct StaticFilter {
     max: DVec3,
     orient3d: f64,
     insphere: f64,
+    weights: [f64; 2],
+    power_test: f64,
 }
 
 impl StaticFilter {
@@ -216,7 +275,36 @@ impl StaticFilter {
             max,
             orient3d: usable(orient3d_bound(extents)),
             insphere: usable(insphere_bound(extents)),
+            weights: [f64::NEG_INFINITY, f64::INFINITY],
+            power_test: f64::INFINITY,
         }
+    }
+
+    /// The same filter for points whose weights lie between `least` and `greatest`, in squares of the unit of
+    /// length. Without it, or with weights that differ by more than 2³⁸⁰, the power test is left to the later
+    /// stages.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use pellicle_predicates::{Sign, StaticFilter};
+    ///
+    /// let filter = StaticFilter::from_bounds(DVec3::ZERO, DVec3::ONE).with_weights(0.0, 2.0);
+    /// let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    /// let inside = |weight| filter.power_test(a, b, c, d, DVec3::ONE, [0.0, 0.0, 0.0, 0.0, weight]);
+    /// assert_eq!(inside(0.0), Sign::Zero);
+    /// assert_eq!(inside(2.0), Sign::Positive);
+    /// ```
+    #[must_use]
+    pub fn with_weights(mut self, least: f64, greatest: f64) -> Self {
+        let extents = (self.max - self.min).to_array();
+        let spread = greatest - least;
+        self.weights = [least, greatest];
+        self.power_test = if in_range(extents) && (0.0..=HUGE_WEIGHT).contains(&spread) {
+            power_test_bound(extents, spread)
+        } else {
+            f64::INFINITY
+        };
+        self
     }
 
     #[inline(always)]
@@ -282,6 +370,76 @@ impl StaticFilter {
         }
     }
 
+    /// [`power_test`](crate::power_test) by the static filter alone: `None` when undecided.
+    #[inline(always)]
+    pub fn power_test_filtered(
+        &self,
+        a: DVec3,
+        b: DVec3,
+        c: DVec3,
+        d: DVec3,
+        e: DVec3,
+        weights: [f64; 5],
+    ) -> Option<Sign> {
+        self.check(&[a, b, c, d, e]);
+        let [least, greatest] = self.weights;
+        debug_assert!(
+            weights.iter().all(|w| (least..=greatest).contains(w)),
+            "a weight outside the filter's interval: {weights:?}"
+        );
+        let [a, b, c, d] = [
+            (a - e).to_array(),
+            (b - e).to_array(),
+            (c - e).to_array(),
+            (d - e).to_array(),
+        ];
+        let weights = weight_differences(weights);
+        certain(
+            determinant::power_test([&a, &b, &c, &d], &weights),
+            self.power_test,
+        )
+    }
+
+    /// [`power_test`](crate::power_test) for points inside the box, with weights in the interval.
+    #[inline(always)]
+    pub fn power_test(
+        &self,
+        a: DVec3,
+        b: DVec3,
+        c: DVec3,
+        d: DVec3,
+        e: DVec3,
+        weights: [f64; 5],
+    ) -> Sign {
+        match self.power_test_filtered(a, b, c, d, e, weights) {
+            Some(sign) => {
+                decided(Predicate::PowerTest, Stage::Static);
+                sign
+            }
+            None => out_of_line::power_test(a, b, c, d, e, weights),
+        }
+    }
+
+    /// [`lifted::power_test`] for points inside the box, with weights in the interval.
+    #[inline(always)]
+    pub fn power_test_perturbed(
+        &self,
+        a: DVec3,
+        b: DVec3,
+        c: DVec3,
+        d: DVec3,
+        e: DVec3,
+        weights: [f64; 5],
+    ) -> Sign {
+        match self.power_test_filtered(a, b, c, d, e, weights) {
+            Some(sign) => {
+                decided(Predicate::PowerTest, Stage::Static);
+                sign
+            }
+            None => out_of_line::power_test_perturbed(a, b, c, d, e, weights),
+        }
+    }
+
     /// [`lifted::insphere`] for points inside the box.
     #[inline(always)]
     pub fn insphere_perturbed(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
@@ -291,103 +449,6 @@ impl StaticFilter {
                 sign
             }
             None => out_of_line::insphere_perturbed(a, b, c, d, e),
-        }
-    }
-}
-
-/// Static filters for points of the plane inside a known rectangle; as [`StaticFilter`].
-///
-/// ```
-/// use glam::DVec2;
-/// use pellicle_predicates::{Sign, StaticFilter2};
-///
-/// let filter = StaticFilter2::from_bounds(DVec2::ZERO, DVec2::ONE);
-/// assert_eq!(filter.orient2d(DVec2::ZERO, DVec2::X, DVec2::Y), Sign::Positive);
-/// assert_eq!(filter.incircle(DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE), Sign::Zero);
-/// ```
-#[derive(Clone, Copy, Debug)]
-pub struct StaticFilter2 {
-    min: DVec2,
-    max: DVec2,
-    orient2d: f64,
-    incircle: f64,
-}
-
-impl StaticFilter2 {
-    /// The filter for points inside the rectangle from `min` to `max`.
-    pub fn from_bounds(min: DVec2, max: DVec2) -> Self {
-        let extents = (max - min).to_array();
-        let usable = |bound: f64| {
-            if in_range(extents) {
-                bound
-            } else {
-                f64::INFINITY
-            }
-        };
-        Self {
-            min,
-            max,
-            orient2d: usable(orient2d_bound(extents)),
-            incircle: usable(incircle_bound(extents)),
-        }
-    }
-
-    #[inline(always)]
-    fn check(&self, points: &[DVec2]) {
-        debug_assert!(
-            points
-                .iter()
-                .all(|p| p.cmpge(self.min).all() && p.cmple(self.max).all()),
-            "a point outside the filter's rectangle: {points:?}"
-        );
-    }
-
-    /// [`orient2d`](crate::orient2d) by the static filter alone: `None` when undecided.
-    #[inline(always)]
-    pub fn orient2d_filtered(&self, a: DVec2, b: DVec2, c: DVec2) -> Option<Sign> {
-        self.check(&[a, b, c]);
-        let [a, b] = [(a - c).to_array(), (b - c).to_array()];
-        certain(determinant::orient2d(&a, &b), self.orient2d)
-    }
-
-    /// [`incircle`](crate::incircle) by the static filter alone: `None` when undecided.
-    #[inline(always)]
-    pub fn incircle_filtered(&self, a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<Sign> {
-        self.check(&[a, b, c, d]);
-        let [a, b, c] = [(a - d).to_array(), (b - d).to_array(), (c - d).to_array()];
-        certain(determinant::incircle(&a, &b, &c), self.incircle)
-    }
-
-    /// [`orient2d`](crate::orient2d) for points inside the rectangle.
-    #[inline(always)]
-    pub fn orient2d(&self, a: DVec2, b: DVec2, c: DVec2) -> Sign {
-        match self.orient2d_filtered(a, b, c) {
-            Some(sign) => {
-                decided(Predicate::Orient2d, Stage::Static);
-                sign
-            }
-            None => out_of_line::orient2d(a, b, c),
-        }
-    }
-
-    /// [`incircle`](crate::incircle) for points inside the rectangle.
-    #[inline(always)]
-    pub fn incircle(&self, a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
-        match self.incircle_filtered(a, b, c, d) {
-            Some(sign) => {
-                decided(Predicate::InCircle, Stage::Static);
-                sign
-            }
-            None => out_of_line::incircle(a, b, c, d),
-        }
-    }
-
-    /// [`lifted::incircle`] for points inside the rectangle.
-    #[inline(always)]
-    pub fn incircle_perturbed(&self, a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
-        match self.incircle(a, b, c, d) {
-            Sign::Zero => lifted::incircle_of_cocircular(a, b, c, d),
-            sign => sign,
         }
     }
 }
@@ -418,6 +479,32 @@ mod out_of_line {
     #[inline(never)]
     pub(super) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
         crate::insphere(a, b, c, d, e)
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn power_test(
+        a: DVec3,
+        b: DVec3,
+        c: DVec3,
+        d: DVec3,
+        e: DVec3,
+        weights: [f64; 5],
+    ) -> Sign {
+        crate::power_test(a, b, c, d, e, weights)
+    }
+
+    #[cold]
+    #[inline(never)]
+    pub(super) fn power_test_perturbed(
+        a: DVec3,
+        b: DVec3,
+        c: DVec3,
+        d: DVec3,
+        e: DVec3,
+        weights: [f64; 5],
+    ) -> Sign {
+        lifted::power_test(a, b, c, d, e, weights)
     }
 
     #[cold]

@@ -12,6 +12,8 @@
 //! | 3×3 determinant | 6 · 2²²⁵ | 229 | 4 |
 //! | incircle | 12 · 2³⁰⁰ | 305 | 5 |
 //! | insphere | 72 · 2³⁷⁵ | 383 | 6 |
+//! | difference of weights | 2¹⁵⁰ | 151 | 3 |
+//! | power test | 96 · 2³⁷⁵ | 383 | 6 |
 
 use crate::{Sign, integer::Parts};
 use glam::{DVec2, DVec3};
@@ -23,6 +25,25 @@ pub(crate) struct Fixed<const N: usize>([u64; N]);
 impl Fixed<2> {
     pub(crate) fn of(value: i128) -> Self {
         Self([value as u64, (value >> 64) as u64])
+    }
+}
+
+impl Fixed<3> {
+    /// mantissa · 2^shift, where that is less than 2¹⁹¹.
+    fn shifted(mantissa: i64, shift: u32) -> Self {
+        let wide = i128::from(mantissa) << (shift % 64);
+        let words = (shift / 64) as usize;
+        Self(std::array::from_fn(|i| match i.checked_sub(words) {
+            None => 0,
+            Some(0) => wide as u64,
+            Some(1) => (wide >> 64) as u64,
+            Some(_) => (wide >> 127) as u64,
+        }))
+    }
+
+    /// Whether −2^bits ≤ self < 2^bits, for 128 ≤ bits < 192.
+    fn fits(self, bits: u32) -> bool {
+        matches!((self.0[2] as i64) >> (bits - 128), 0 | -1)
     }
 }
 
@@ -105,12 +126,23 @@ fn differences<const D: usize, const N: usize>(
     points: [[f64; D]; N],
     last: [f64; D],
 ) -> Option<[[Fixed<2>; D]; N]> {
+    Some(differences_in_units(points, last, i32::MAX)?.0)
+}
+
+/// The points minus the last one, in units of the smallest last bit among all coordinates, or of 2^finest if
+/// that is less; and the unit's exponent.
+#[inline(always)]
+fn differences_in_units<const D: usize, const N: usize>(
+    points: [[f64; D]; N],
+    last: [f64; D],
+    finest: i32,
+) -> Option<([[Fixed<2>; D]; N], i32)> {
     /// Bits of a coordinate above the smallest last bit, so that differences fit an `i128`.
     const COORDINATE_BITS: i32 = 126;
     const DIFFERENCE_BITS: u32 = 75;
     let last = last.map(Parts::of);
     let parts = points.map(|p| p.map(Parts::of));
-    let (mut low, mut top) = (i32::MAX, i32::MIN);
+    let (mut low, mut top) = (finest, i32::MIN);
     for part in parts.iter().flatten().chain(&last) {
         if part.mantissa != 0 {
             low = low.min(part.exponent);
@@ -133,7 +165,7 @@ fn differences<const D: usize, const N: usize>(
             Fixed::of(difference)
         })
     });
-    (bits >> DIFFERENCE_BITS == 0).then_some(differences)
+    (bits >> DIFFERENCE_BITS == 0).then_some((differences, low))
 }
 
 #[inline(always)]
@@ -168,9 +200,48 @@ pub(crate) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Option<Sign> {
     Some(value.plus(lift(&c).times(minor(&a, &b))).sign())
 }
 
-/// The formula of [`crate::determinant::insphere`].
 pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Option<Sign> {
-    let [a, b, c, d] = differences([a, b, c, d].map(|p| p.to_array()), e.to_array())?;
+    let v = differences([a, b, c, d].map(|p| p.to_array()), e.to_array())?;
+    let lifts = [lift(&v[0]), lift(&v[1]), lift(&v[2]), lift(&v[3])];
+    Some(lifted(v, lifts))
+}
+
+/// The weights minus the last one, in units of 2^unit.
+fn weight_differences(weights: [Parts; 5], unit: i32) -> Option<[Fixed<3>; 4]> {
+    const WEIGHT_BITS: i32 = 190;
+    const DIFFERENCE_BITS: u32 = 150;
+    let mut integers = [Fixed([0; 3]); 5];
+    for (integer, part) in integers.iter_mut().zip(weights) {
+        if part.mantissa != 0 {
+            let shift = part.exponent - unit;
+            if shift + 1 + part.mantissa.unsigned_abs().ilog2() as i32 > WEIGHT_BITS {
+                return None;
+            }
+            *integer = Fixed::shifted(part.mantissa, shift as u32);
+        }
+    }
+    let differences = std::array::from_fn(|i| integers[i].minus(integers[4]));
+    let fit = |d: &Fixed<3>| d.fits(DIFFERENCE_BITS);
+    differences.iter().all(fit).then_some(differences)
+}
+
+pub(crate) fn power_test(points: [DVec3; 5], weights: [f64; 5]) -> Option<Sign> {
+    let [a, b, c, d, e] = points.map(|p| p.to_array());
+    let weights = weights.map(Parts::of);
+    // Weights count in squares of the unit.
+    let nonzero = weights.iter().filter(|w| w.mantissa != 0);
+    let finest = nonzero.map(|w| w.exponent.div_euclid(2)).min();
+    let finest = finest.unwrap_or(i32::MAX);
+    let (v, unit) = differences_in_units([a, b, c, d], e, finest)?;
+    let unit = unit.saturating_mul(2);
+    let w = weight_differences(weights, unit)?;
+    let heights = std::array::from_fn(|i| lift(&v[i]).minus(w[i]));
+    Some(lifted(v, heights))
+}
+
+/// The formula of [`crate::determinant::power_test`], from the heights of the lifted points.
+#[inline(always)]
+fn lifted([a, b, c, d]: [[Fixed<2>; 3]; 4], [ha, hb, hc, hd]: [Fixed<3>; 4]) -> Sign {
     let (ab, bc, cd) = (minor(&a, &b), minor(&b, &c), minor(&c, &d));
     let (da, ac, bd) = (minor(&d, &a), minor(&a, &c), minor(&b, &d));
     let z = |p: &[Fixed<2>; 3], minor: Fixed<3>| -> Fixed<4> { p[2].times(minor) };
@@ -178,10 +249,10 @@ pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Opti
     let bcd = z(&b, cd).minus(z(&c, bd)).plus(z(&d, bc));
     let cda = z(&c, da).plus(z(&d, ac)).plus(z(&a, cd));
     let dab = z(&d, ab).plus(z(&a, bd)).plus(z(&b, da));
-    let weighted = |p: &[Fixed<2>; 3], det: Fixed<4>| -> Fixed<6> { lift(p).times(det) };
-    let first = weighted(&c, dab).minus(weighted(&d, abc));
-    let second = weighted(&a, bcd).minus(weighted(&b, cda));
-    Some(first.plus(second).sign())
+    let weighted = |height: Fixed<3>, det: Fixed<4>| -> Fixed<6> { height.times(det) };
+    let first = weighted(hc, dab).minus(weighted(hd, abc));
+    let second = weighted(ha, bcd).minus(weighted(hb, cda));
+    first.plus(second).sign()
 }
 
 /// The sign of |a − p|² − |b − p|².

@@ -1,8 +1,9 @@
 //! Signs of geometric determinants, right for every finite `f64`, with ties broken by symbolic
 //! perturbation.
 //!
-//! The data are points, [`DVec2`] and [`DVec3`]; the verbs are [`orient2d`], [`orient3d`], [`incircle`] and
-//! [`insphere`], each of which returns a [`Sign`]; [`compare_distance`] says which of two points is nearer.
+//! The data are points, [`DVec2`] and [`DVec3`]; the verbs are [`orient2d`], [`orient3d`], [`incircle`],
+//! [`insphere`] and, for points with weights, [`power_test`], each of which returns a [`Sign`];
+//! [`compare_distance`] says which of two points is nearer.
 //!
 //! ```
 //! use glam::DVec3;
@@ -144,12 +145,41 @@ pub fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
     }
 }
 
+/// Positive when the lift (e, |e|² − w) of `e` lies below the hyperplane through the lifts of the positively
+/// oriented `a, b, c, d`; the sign turns with their orientation.
+///
+/// The `weights` are those of the points in this order, in squares of the unit of length: of any sign, and
+/// independent of the coordinates' magnitude. A point p with weight w has the power |x − p|² − w at x, and the
+/// five lifts lie on one hyperplane when some x has the same power with respect to all (Aurenhammer 1987).
+/// With equal weights this is [`insphere`], whatever they are.
+///
+/// ```
+/// use glam::DVec3;
+/// use pellicle_predicates::{Sign, power_test};
+///
+/// let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+/// let inside = |e, weights| power_test(a, b, c, d, e, weights);
+/// assert_eq!(inside(DVec3::ONE, [7.0; 5]), Sign::Zero);
+/// assert_eq!(inside(DVec3::ONE, [0.0, 0.0, 0.0, 0.0, 1e-300]), Sign::Positive);
+/// assert_eq!(inside(DVec3::splat(0.5), [0.0, 0.0, 0.0, 0.0, -0.75]), Sign::Zero);
+/// ```
+#[inline]
+pub fn power_test(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3, weights: [f64; 5]) -> Sign {
+    match filter::power_test(a, b, c, d, e, weights) {
+        Some(sign) => {
+            decided(Predicate::PowerTest, Stage::SemiStatic);
+            sign
+        }
+        None => unfiltered::power_test([a, b, c, d, e], weights),
+    }
+}
+
 /// The stages after the filters.
 mod unfiltered {
     use super::{
         DVec2, DVec3, Predicate, Sign, Stage, decided, determinant, exact, fixed, lattice,
     };
-    use crate::interval::Interval;
+    use crate::{determinant::Ring, interval::Interval};
 
     fn intervals<const D: usize, const N: usize>(
         points: [[f64; D]; N],
@@ -232,6 +262,18 @@ mod unfiltered {
         )
     }
 
+    #[cold]
+    #[inline(never)]
+    pub(super) fn power_test(points: [DVec3; 5], weights: [f64; 5]) -> Sign {
+        staged(
+            Predicate::PowerTest,
+            lattice::power_test(points, weights),
+            || fixed::power_test(points, weights),
+            || interval_power_test(points, weights),
+            || exact::power_test(points, weights),
+        )
+    }
+
     pub(crate) fn interval_orient2d(a: DVec2, b: DVec2, c: DVec2) -> Interval {
         let [a, b] = intervals([a, b].map(|p| p.to_array()), c.to_array());
         determinant::orient2d(&a, &b)
@@ -250,5 +292,13 @@ mod unfiltered {
     pub(crate) fn interval_insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Interval {
         let [a, b, c, d] = intervals([a, b, c, d].map(|p| p.to_array()), e.to_array());
         determinant::insphere(&a, &b, &c, &d)
+    }
+
+    pub(crate) fn interval_power_test(points: [DVec3; 5], weights: [f64; 5]) -> Interval {
+        let [a, b, c, d, e] = points.map(|p| p.to_array());
+        let [a, b, c, d] = intervals([a, b, c, d], e);
+        let weights = weights.map(Interval::exactly);
+        let weights = std::array::from_fn(|i| weights[i].sub(&weights[4]));
+        determinant::power_test([&a, &b, &c, &d], &weights)
     }
 }

@@ -14,12 +14,26 @@
 //! factor   o(e, b, c, d)    o(a, e, c, d)    o(a, b, e, d)    o(a, b, c, e)    −o(a, b, c, d)
 //! ```
 //!
+//! # Weights
+//!
+//! The lift of a point with weight w is (p, |p|² − w), and [`power_test`] perturbs it in the same way, by the
+//! same ranks of the *positions*. Two points at one position need no rank of their own. Let a and b be two
+//! such points among the five, with different weights: their lifts lie on one vertical line, so the determinant
+//! is (w_a − w_b) · o(a, c, d, e) up to sign. Either this decides: of the two the larger weight lies below, and
+//! the smaller is hidden. Or a, c, d and e are coplanar, and then every factor of the table vanishes: zero, whatever
+//! the ranks. Two points that agree in weight too are one point given twice: zero, the caller's duplicate.
+//!
+//! # In a plane
+//!
 //! The test in a plane needs no function of its own: when `a, b, c, e` are coplanar, `insphere(a, b, c, d,
 //! e)` with `a, b, c, d` positive says whether `e` lies inside the circle through `a, b, c`, perturbed by
-//! these four points alone, for every `d` off their plane, because the factor of `d` vanishes.
+//! these four points alone, for every `d` off their plane, because the factor of `d` vanishes. So does
+//! [`power_test`], whatever the weight of `d`: raising or lowering d turns the hyperplane about the plane of
+//! a, b and c.
 
 use crate::{
     Sign, incircle as plain_incircle, insphere as plain_insphere, orient2d, orient3d,
+    power_test as plain_power_test,
     statistics::{Predicate, Stage, decided},
 };
 use glam::{DVec2, DVec3};
@@ -81,6 +95,31 @@ pub fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
     }
 }
 
+/// The perturbed power test: positive when the lift of `e` lies below the hyperplane through those of the
+/// positively oriented `a, b, c, d`; `weights` are theirs in this order, in squares of the unit of length.
+/// Never zero for distinct points with `a, b, c, d` not coplanar; of two equal points the one with the larger
+/// weight lies below. Zero when a point of a degenerate set is there twice, with the same weight.
+///
+/// ```
+/// use glam::DVec3;
+/// use pellicle_predicates::{Sign, lifted};
+///
+/// let [a, b, c, d] = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+/// let inside = |e, weights| lifted::power_test(a, b, c, d, e, weights);
+/// assert_eq!(inside(DVec3::ONE, [0.0; 5]), Sign::Negative);
+/// // At one position the larger weight wins, by however little.
+/// assert_eq!(inside(DVec3::X, [0.0, 0.0, 0.0, 0.0, f64::MIN_POSITIVE]), Sign::Positive);
+/// assert_eq!(inside(DVec3::X, [0.0, f64::MIN_POSITIVE, 0.0, 0.0, 0.0]), Sign::Negative);
+/// assert_eq!(inside(DVec3::X, [0.0; 5]), Sign::Zero);
+/// ```
+#[inline]
+pub fn power_test(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3, weights: [f64; 5]) -> Sign {
+    match plain_power_test(a, b, c, d, e, weights) {
+        Sign::Zero => power_test_of_cospherical(a, b, c, d, e),
+        sign => sign,
+    }
+}
+
 /// The sign of the perturbation for four points already known to be cocircular (or collinear).
 #[cold]
 #[inline(never)]
@@ -99,6 +138,20 @@ pub fn incircle_of_cocircular(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
 #[inline(never)]
 pub fn insphere_of_cospherical(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
     decided(Predicate::InSphere, Stage::Perturbation);
+    by_factors([a, b, c, d, e])
+}
+
+/// The sign of the perturbation for five points whose lifts are already known to lie on one hyperplane: the
+/// weights have no more say.
+#[cold]
+#[inline(never)]
+pub fn power_test_of_cospherical(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+    decided(Predicate::PowerTest, Stage::Perturbation);
+    by_factors([a, b, c, d, e])
+}
+
+#[inline(always)]
+fn by_factors([a, b, c, d, e]: [DVec3; 5]) -> Sign {
     from_the_largest([a, b, c, d, e], lexicographic, |raised| match raised {
         0 => orient3d(e, b, c, d),
         1 => orient3d(a, e, c, d),

@@ -27,6 +27,8 @@ pub enum Predicate {
     InCircle,
     /// [`insphere`](crate::insphere).
     InSphere,
+    /// [`power_test`](crate::power_test).
+    PowerTest,
 }
 
 /// What can decide a call, in the order in which it is tried.
@@ -48,7 +50,7 @@ pub enum Stage {
     Perturbation,
 }
 
-const PREDICATES: usize = 4;
+const PREDICATES: usize = 5;
 const STAGES: usize = 7;
 
 /// The number of calls by predicate and stage.

@@ -2,12 +2,14 @@
 //!
 //! `PELLICLE_CASES` sets the number of cases of each property.
 
+mod bounds;
 mod coverage;
 mod distance;
 mod implicit;
 mod inputs;
 mod oracle;
 mod permutation;
+mod power;
 mod schemes;
 mod signs;
 mod stages;

@@ -50,23 +50,7 @@ fn nudged(points: BoxedStrategy<Points>) -> BoxedStrategy<Points> {
     let moves = proptest::array::uniform15(prop_oneof![6 => Just(0), 1 => -2..=2]);
     (points, moves)
         .prop_map(|(points, moves)| {
-            from_fn(|i| {
-                DVec3::from_array(from_fn(|k| {
-                    let mut value = points[i][k];
-                    let step: i32 = moves[3 * i + k];
-                    for _ in 0..step.abs() {
-                        let next = if step > 0 {
-                            value.next_up()
-                        } else {
-                            value.next_down()
-                        };
-                        if next.is_finite() {
-                            value = next;
-                        }
-                    }
-                    value
-                }))
-            })
+            from_fn(|i| DVec3::from_array(from_fn(|k| stepped(points[i][k], moves[3 * i + k]))))
         })
         .boxed()
 }
@@ -207,6 +191,80 @@ pub(super) fn points() -> BoxedStrategy<Points> {
         1 => nudged(points_of(extreme())),
     ]
     .boxed()
+}
+
+/// Points, and weights that are all the same, few units, a share of the squared extent, such that the lifts lie
+/// on one hyperplane (exactly on lattices, elsewhere up to rounding), or anything.
+pub(super) fn weighted_points() -> BoxedStrategy<(Points, [f64; 5])> {
+    let few = proptest::array::uniform5((-9..=9_i32).prop_map(f64::from));
+    let share = (proptest::array::uniform5(-1.0..1.0), -70..=70_i32)
+        .prop_map(|(w, e)| w.map(|w| w * f64::powi(2.0, e)));
+    let weight = prop_oneof![
+        2 => any::<u64>().prop_map(f64::from_bits).prop_filter("finite", |w| w.is_finite()),
+        1 => extreme(),
+        1 => (-1.0..1.0, -1070..1020_i32).prop_map(|(m, e): (f64, i32)| {
+            m * f64::powi(2.0, e / 2) * f64::powi(2.0, e - e / 2)
+        }),
+    ];
+    let absolute = prop_oneof![
+        weight.clone().prop_map(|w| [w; 5]),
+        proptest::array::uniform5(weight),
+    ];
+    let moves = proptest::array::uniform5(prop_oneof![6 => Just(0), 1 => -2..=2_i32]);
+    let power = [-3..=3_i32, -3..=3_i32, -3..=3_i32, -9..=9_i32];
+    let scaled = (points(), prop_oneof![few, share]).prop_map(|(points, weights)| {
+        let unit = extent(&points);
+        (points, weights.map(|w| finite(w * unit * unit)))
+    });
+    // Orthogonal to a sphere about a lattice point near the first one.
+    let flat = (points(), power, moves).prop_map(|(points, [x, y, z, r], moves)| {
+        let unit = extent(&points);
+        let centre = points[0] + DVec3::new(x.into(), y.into(), z.into()) * unit;
+        let weights = from_fn(|i| {
+            let power = points[i].distance_squared(centre) - f64::from(r) * unit * unit;
+            stepped(finite(power), moves[i])
+        });
+        (points, weights)
+    });
+    prop_oneof![
+        3 => scaled,
+        3 => flat,
+        2 => (points(), absolute),
+    ]
+    .boxed()
+}
+
+/// The power of two just below the largest coordinate difference.
+fn extent(points: &Points) -> f64 {
+    let mut largest = 0.0;
+    for p in points {
+        largest = f64::max(largest, (*p - points[0]).abs().max_element());
+    }
+    match largest.log2().floor() as i32 {
+        exponent if exponent < -1022 => 1.0,
+        exponent => f64::powi(2.0, exponent.min(1023)),
+    }
+}
+
+/// What overflowed becomes the largest double, NaN zero.
+fn finite(value: f64) -> f64 {
+    if value.is_nan() {
+        0.0
+    } else {
+        value.clamp(f64::MIN, f64::MAX)
+    }
+}
+
+fn stepped(value: f64, steps: i32) -> f64 {
+    let next = |value: f64| {
+        if steps > 0 {
+            value.next_up()
+        } else {
+            value.next_down()
+        }
+    };
+    let moved = (0..steps.abs()).fold(value, |value, _| next(value));
+    if moved.is_finite() { moved } else { value }
 }
 
 /// The first points without z.

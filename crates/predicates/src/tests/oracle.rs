@@ -83,6 +83,15 @@ pub(super) fn incircle(p: [DVec2; 4]) -> IBig {
     determinant(&p.map(|p| lifted(&p.to_array())))
 }
 
+/// The weights count in the square of the coordinates' unit.
+pub(super) fn power_test(p: [DVec3; 5], weights: [f64; 5]) -> IBig {
+    -determinant(&std::array::from_fn::<_, 5, _>(|i| {
+        let mut row = lifted(&p[i].to_array());
+        row[3] -= units_of_degree(weights[i], 2);
+        row
+    }))
+}
+
 /// The lifted determinant is negative for points inside a positive tetrahedron's sphere.
 pub(super) fn insphere(p: [DVec3; 5]) -> IBig {
     -determinant(&p.map(|p| lifted(&p.to_array())))
