@@ -1,7 +1,8 @@
-//! Orchestration: `cargo xtask ci`, `cargo xtask tidy`, `cargo xtask bench`. Uses no crate of the workspace.
+//! Orchestration: `cargo xtask ci`, `tidy`, `campaign`, `bench`. Uses no crate of the workspace.
 #![forbid(unsafe_code)]
 
 mod bench;
+mod campaign;
 mod ci;
 mod picture;
 mod readme;
@@ -18,6 +19,7 @@ usage: cargo xtask <task>
 
   ci      format, clippy, rustdoc, tidy, and the test command of README.md
   tidy    the checks of the house: floors, printing, lengths, citations, paths, fixtures
+  campaign [CASES [SEED]]           the predicates against exact arithmetic: 10⁷ cases, ten minutes of one core
   picture the README's commands, and the picture that they make
   bench --table                     every fixture reconstructed: docs/benchmarks/fixtures.md
   bench --delaunay [KIND:COUNT …]   against CGAL, if installed: docs/benchmarks/delaunay.md
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["tidy"] => tidy::run(&root()),
         ["picture"] => picture::run(&root()),
+        ["campaign", arguments @ ..] => campaign::run(&root(), arguments),
         ["bench", arguments @ ..] => bench::run(&root(), arguments),
         _ => {
             eprint!("{USAGE}");
