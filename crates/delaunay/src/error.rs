@@ -2,7 +2,8 @@
 
 use pellicle_geometry::{Cancelled, VertexId};
 
-/// Why [`tetrahedralize`](crate::tetrahedralize) has no result.
+/// Why [`tetrahedralize`](crate::tetrahedralize) has no result, or a
+/// [`DynamicTetrahedralization`](crate::DynamicTetrahedralization) stays as it is.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
@@ -37,6 +38,12 @@ pub enum Error {
         of: &'static str,
         /// How many there may be.
         limit: usize,
+    },
+    /// The id names no vertex: none had it yet, or it was removed.
+    #[error("{} is not the id of a vertex: it was removed, or never inserted", .vertex.0)]
+    NotAVertex {
+        /// The id.
+        vertex: VertexId,
     },
     /// The observer asked to stop.
     #[error(transparent)]

@@ -28,8 +28,11 @@
 mod build;
 mod circulate;
 mod circumcenter;
+mod connectivity;
+mod dynamic;
 mod error;
 mod id;
+mod locate;
 mod options;
 mod tetrahedralization;
 mod validate;
@@ -37,8 +40,10 @@ mod voronoi;
 
 pub use circulate::{AroundEdge, AroundVertex};
 pub use circumcenter::circumcenter;
+pub use dynamic::DynamicTetrahedralization;
 pub use error::Error;
 pub use id::{FACET_CORNERS, FacetId, TetId};
+pub use locate::Location;
 pub use options::{InsertionOrder, Options};
 pub use tetrahedralization::Tetrahedralization;
 pub use validate::Defect;

@@ -8,7 +8,10 @@
 //! | edge | facet: the polygon of the vertices around the edge |
 //! | vertex | cell |
 
-use crate::{FacetId, TetId, Tetrahedralization, circumcenter::circumcenter};
+use crate::{
+    AroundEdge, AroundVertex, FacetId, TetId, Tetrahedralization, circumcenter::circumcenter,
+    connectivity::Connectivity,
+};
 use pellicle_geometry::{DVec3, VertexId, triangle};
 
 /// A Voronoi vertex.
@@ -70,21 +73,7 @@ impl Tetrahedralization<'_> {
     /// Accurate for slivers too, as far as doubles can be: decisions must not hang on it all the same, since
     /// the circumcentre of a sliver moves far when a point moves a little.
     pub fn voronoi_vertex(&self, tet: TetId) -> VoronoiVertex {
-        let corners = self.tet(tet);
-        if !self.is_finite(tet) {
-            return VoronoiVertex::Infinite(self.normal([corners[0], corners[1], corners[2]]));
-        }
-        let [a, b, c, d] = corners.map(|v| self.points()[v.index()]);
-        match circumcenter(a, b, c, d) {
-            Some(center) => VoronoiVertex::Finite(center),
-            None => VoronoiVertex::Infinite(self.normal([corners[0], corners[1], corners[2]])),
-        }
-    }
-
-    /// The unit normal of a triangle of vertices, zero for one without area.
-    fn normal(&self, facet: [VertexId; 3]) -> DVec3 {
-        let [a, b, c] = facet.map(|v| self.points()[v.index()]);
-        triangle::unit_normal(a, b, c).unwrap_or(DVec3::ZERO)
+        voronoi_vertex(self, tet)
     }
 
     /// The finite Voronoi vertices with the tetrahedra they are dual to.
@@ -94,10 +83,7 @@ impl Tetrahedralization<'_> {
 
     /// The Voronoi edge dual to a facet.
     pub fn voronoi_edge(&self, facet: FacetId) -> VoronoiEdge {
-        VoronoiEdge {
-            facet,
-            ends: [facet.tet(), self.twin(facet).tet()].map(|tet| self.voronoi_vertex(tet)),
-        }
+        voronoi_edge(self, facet)
     }
 
     /// All Voronoi edges, each once: bounded ones and rays.
@@ -114,30 +100,13 @@ impl Tetrahedralization<'_> {
     /// The Voronoi facet dual to the edge between two vertices of `tet`; `None` where `tet` does not hold
     /// both.
     pub fn voronoi_facet(&self, tet: TetId, from: VertexId, to: VertexId) -> Option<VoronoiFacet> {
-        let around = self.around_edge(tet, from, to)?;
-        Some(VoronoiFacet {
-            edge: [from, to],
-            vertices: around.map(|(tet, _)| self.voronoi_vertex(tet)).collect(),
-        })
+        voronoi_facet(self, tet, from, to)
     }
 
     /// The Voronoi cell of a vertex; that of its representative for a duplicate. Linear in the number of
     /// tetrahedra at the vertex, up to a logarithm. `None` for the vertex at infinity and ids out of range.
     pub fn voronoi_cell(&self, vertex: VertexId) -> Option<VoronoiCell> {
-        self.incident(vertex)?;
-        let vertex = self.representative(vertex);
-        let mut neighbors: Vec<(VertexId, TetId)> = self
-            .around_vertex(vertex)
-            .flat_map(|tet| self.tet(tet).map(|corner| (corner, tet)))
-            .filter(|&(corner, _)| corner != vertex && corner != Self::INFINITE)
-            .collect();
-        neighbors.sort_unstable();
-        neighbors.dedup_by_key(|&mut (corner, _)| corner);
-        let facets = neighbors
-            .into_iter()
-            .filter_map(|(neighbor, tet)| self.voronoi_facet(tet, vertex, neighbor))
-            .collect();
-        Some(VoronoiCell { vertex, facets })
+        voronoi_cell(self, self.representative(vertex))
     }
 
     /// The Voronoi cells of all vertices, duplicates excepted.
@@ -147,4 +116,55 @@ impl Tetrahedralization<'_> {
             .filter(|&vertex| self.representative(vertex) == vertex)
             .filter_map(|vertex| self.voronoi_cell(vertex))
     }
+}
+
+/// See [`Tetrahedralization::voronoi_vertex`].
+pub(crate) fn voronoi_vertex<T: Connectivity>(among: &T, tet: TetId) -> VoronoiVertex {
+    if among.has_four_points(tet) {
+        let [a, b, c, d] = among.corners(tet).map(|vertex| among.position(vertex));
+        if let Some(center) = circumcenter(a, b, c, d) {
+            return VoronoiVertex::Finite(center);
+        }
+    }
+    // Facet 3 seen from its infinite tetrahedron: counter-clockwise from outside; zero without area.
+    let [a, b, c] = among.facet_points(tet, 3);
+    VoronoiVertex::Infinite(triangle::unit_normal(a, b, c).unwrap_or(DVec3::ZERO))
+}
+
+/// See [`Tetrahedralization::voronoi_edge`].
+pub(crate) fn voronoi_edge<T: Connectivity>(among: &T, facet: FacetId) -> VoronoiEdge {
+    VoronoiEdge {
+        facet,
+        ends: [facet, among.other_side(facet)].map(|side| voronoi_vertex(among, side.tet())),
+    }
+}
+
+/// See [`Tetrahedralization::voronoi_facet`].
+pub(crate) fn voronoi_facet<T: Connectivity>(
+    among: &T,
+    tet: TetId,
+    from: VertexId,
+    to: VertexId,
+) -> Option<VoronoiFacet> {
+    let around = AroundEdge::new(among, tet, from, to)?;
+    Some(VoronoiFacet {
+        edge: [from, to],
+        vertices: around.map(|(tet, _)| voronoi_vertex(among, tet)).collect(),
+    })
+}
+
+/// See [`Tetrahedralization::voronoi_cell`].
+pub(crate) fn voronoi_cell<T: Connectivity>(among: &T, vertex: VertexId) -> Option<VoronoiCell> {
+    among.tet_at(vertex)?;
+    let mut neighbors: Vec<(VertexId, TetId)> = AroundVertex::new(among, vertex)
+        .flat_map(|tet| among.corners(tet).map(|corner| (corner, tet)))
+        .filter(|&(corner, _)| corner != vertex && corner != VertexId::NONE)
+        .collect();
+    neighbors.sort_unstable();
+    neighbors.dedup_by_key(|&mut (corner, _)| corner);
+    let facets = neighbors
+        .into_iter()
+        .filter_map(|(neighbor, tet)| voronoi_facet(among, tet, vertex, neighbor))
+        .collect();
+    Some(VoronoiCell { vertex, facets })
 }

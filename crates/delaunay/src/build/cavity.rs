@@ -11,20 +11,20 @@ const MOST_TABLED_VERTICES: usize = 256;
 
 /// A facet between the conflict region and the rest.
 #[derive(Clone, Copy)]
-struct BoundaryFacet {
+pub(crate) struct BoundaryFacet {
     /// Clockwise seen from the cavity, so that (new vertex, corners) is positive; infinity comes last.
-    corners: [VertexId; 3],
+    pub(crate) corners: [VertexId; 3],
     /// The facet seen from outside the cavity.
-    outer: FacetId,
+    pub(crate) outer: FacetId,
 }
 
 /// Storage of the current conflict region, kept between insertions.
 #[derive(Default)]
 pub(super) struct Cavity {
-    conflict: Vec<TetId>,
-    boundary: Vec<BoundaryFacet>,
+    pub(super) conflict: Vec<TetId>,
+    pub(super) boundary: Vec<BoundaryFacet>,
     /// The tetrahedra that fill the cavity: one a boundary facet.
-    filling: Vec<TetId>,
+    pub(super) filling: Vec<TetId>,
     /// The vertices of the boundary.
     vertices: Vec<VertexId>,
     /// By vertex: where it stands in `vertices`, if `vertices` agrees.
@@ -39,6 +39,13 @@ impl Cavity {
             rank: vec![0; vertices],
             edges: vec![FacetId::NONE; MOST_TABLED_VERTICES * MOST_TABLED_VERTICES],
             ..Self::default()
+        }
+    }
+
+    /// Makes room for vertices up to this number.
+    pub(super) fn make_room(&mut self, vertices: usize) {
+        if self.rank.len() < vertices {
+            self.rank.resize(vertices, 0);
         }
     }
 
@@ -181,7 +188,7 @@ impl Kernel {
 /// Turns a facet that is counter-clockwise seen from inside around, with the vertex at infinity, if it is
 /// one of them, last.
 #[inline]
-fn clockwise_infinity_last([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+pub(super) fn clockwise_infinity_last([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
     if a == INFINITE {
         [c, b, a]
     } else if b == INFINITE {

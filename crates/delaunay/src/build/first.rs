@@ -32,7 +32,7 @@ pub(super) fn four_that_span(points: &[DVec3], order: &mut [u32]) -> Result<(), 
 }
 
 /// Whether three points lie on one line, exactly: their projections along each axis do.
-fn collinear(a: DVec3, b: DVec3, c: DVec3) -> bool {
+pub(crate) fn collinear(a: DVec3, b: DVec3, c: DVec3) -> bool {
     let projected = |along: fn(DVec3) -> DVec2| orient2d(along(a), along(b), along(c));
     projected(|p| DVec2::new(p.x, p.y)) == Sign::Zero
         && projected(|p| DVec2::new(p.y, p.z)) == Sign::Zero

@@ -11,7 +11,7 @@ use pellicle_geometry::{Aabb, VertexId};
 use pellicle_predicates::StaticFilter;
 
 /// The vertex at infinity, inside the kernel.
-pub(super) const INFINITE: VertexId = VertexId(0);
+pub(crate) const INFINITE: VertexId = VertexId(0);
 
 /// Facet ids leave 30 bits for tetrahedra.
 pub(super) const MOST_TETS: usize = 1 << 30;
@@ -26,7 +26,7 @@ pub(super) enum Mark {
     Vacant,
 }
 
-pub(super) struct Kernel {
+pub(crate) struct Kernel {
     /// By vertex; the first stands for infinity and is never read.
     pub(super) points: Vec<DVec3>,
     /// Four corners each, positively oriented; an infinite one as if its vertex at infinity were any point
@@ -68,7 +68,7 @@ impl Kernel {
         kernel
     }
 
-    fn push_first_tetrahedron(&mut self) {
+    pub(super) fn push_first_tetrahedron(&mut self) {
         let first = [1, 2, 3, 4].map(VertexId);
         self.push(first);
         for corners in FACET_CORNERS {

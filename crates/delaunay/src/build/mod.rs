@@ -6,12 +6,16 @@ mod finish;
 mod first;
 mod kernel;
 mod locate;
+mod steps;
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 
 use crate::{Error, InsertionOrder, Options, Tetrahedralization};
-use kernel::Kernel;
+pub(crate) use first::collinear;
+pub(crate) use kernel::Kernel;
+pub(crate) use steps::{BoundaryFacet, INFINITE};
+
 use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId, first_not_finite};
 use pellicle_spatial::brio;
 

@@ -5,7 +5,7 @@ use crate::{Defect, TetId};
 use proptest::prelude::*;
 
 /// Small sets that are as degenerate as they come.
-fn degenerate_points() -> impl Strategy<Value = Vec<DVec3>> {
+pub(crate) fn degenerate_points() -> impl Strategy<Value = Vec<DVec3>> {
     let grid = (0..4_i32, 0..4_i32, 0..4_i32)
         .prop_map(|(x, y, z)| DVec3::new(f64::from(x), f64::from(y), f64::from(z)));
     // Integer points on the sphere x² + y² + z² = 81, in all octants.
@@ -34,7 +34,11 @@ fn degenerate_points() -> impl Strategy<Value = Vec<DVec3>> {
         -1.0..1.0
     ])
     .prop_map(DVec3::from);
+    let on_line = (-5..5_i32, prop::bool::weighted(0.1)).prop_map(|(t, off)| {
+        DVec3::new(0.1, 0.7, -0.3) * f64::from(t).exp2() + DVec3::X * f64::from(u8::from(off))
+    });
     prop_oneof![
+        prop::collection::vec(on_line, 0..20),
         prop::collection::vec(grid, 0..40),
         prop::collection::vec(on_sphere, 0..40),
         prop::collection::vec(flat, 0..40),
@@ -44,7 +48,7 @@ fn degenerate_points() -> impl Strategy<Value = Vec<DVec3>> {
 }
 
 /// The finite tetrahedra as sets of coordinates, sorted.
-fn as_sets(tetrahedralization: &Tetrahedralization) -> Vec<[[u64; 3]; 4]> {
+pub(crate) fn as_sets(tetrahedralization: &Tetrahedralization) -> Vec<[[u64; 3]; 4]> {
     let bits = |v: VertexId| {
         (tetrahedralization.points()[v.index()] + DVec3::ZERO)
             .to_array()
