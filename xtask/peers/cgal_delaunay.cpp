@@ -1,19 +1,23 @@
-// Times CGAL's Delaunay_triangulation_3 on points given as little-endian doubles, and dumps the set of
+// Times CGAL's Delaunay_triangulation_3 on points given as little-endian doubles, or dumps the set of
 // tetrahedra: cgal_delaunay POINTS [DUMP]. For comparison only: CGAL's triangulations are GPL, and nothing
 // here is linked into Pellicle.
 //
-// Prints seconds, points and finite cells, as `time_delaunay` does; both count sorting and insertion.
-// With DUMP, vertices carry their index, which costs some time, so no time is printed.
+// Prints what `time_delaunay` prints: seconds of the processor and of the wall, which count sorting and
+// insertion, points, finite cells, bytes held before and at the peak. With DUMP, vertices carry their index,
+// which costs some time, so nothing is measured. `cgal_delaunay --version` prints CGAL's.
 #include <CGAL/Delaunay_triangulation_3.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_3.h>
+#include <CGAL/version.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <cstring>
+#include <ctime>
 #include <fstream>
-#include <iterator>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,32 +33,52 @@ static void dump(const std::vector<Point>& points, const char* file) {
     std::vector<std::pair<Point, std::uint32_t>> indexed;
     for (std::uint32_t i = 0; i < points.size(); ++i) indexed.emplace_back(points[i], i);
     Indexed triangulation(indexed.begin(), indexed.end());
-    std::vector<std::array<std::uint32_t, 4>> cells;
+    std::ofstream out(file, std::ios::binary);
     for (auto cell : triangulation.finite_cell_handles()) {
         std::array<std::uint32_t, 4> corners;
         for (int i = 0; i < 4; ++i) corners[i] = cell->vertex(i)->info();
-        std::sort(corners.begin(), corners.end());
-        cells.push_back(corners);
+        out.write(reinterpret_cast<const char*>(corners.data()), sizeof corners);
     }
-    std::sort(cells.begin(), cells.end());
-    std::ofstream out(file, std::ios::binary);
-    out.write(reinterpret_cast<const char*>(cells.data()), cells.size() * sizeof(cells[0]));
-    std::printf("- %zu %zu\n", points.size(), cells.size());
+}
+
+// A line of Linux's account of the process, in bytes.
+static long long memory(const std::string& name) {
+    std::ifstream status("/proc/self/status");
+    std::string line;
+    while (std::getline(status, line))
+        if (line.rfind(name + ":", 0) == 0) return std::stoll(line.substr(name.size() + 1)) * 1024;
+    return 0;
+}
+
+static double processor() {
+    timespec spent;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &spent);
+    return spent.tv_sec + 1e-9 * spent.tv_nsec;
 }
 
 int main(int argc, char** argv) {
     if (argc < 2) return 2;
-    std::ifstream in(argv[1], std::ios::binary);
+    if (std::strcmp(argv[1], "--version") == 0) {
+        std::puts(CGAL_VERSION_STR);
+        return 0;
+    }
+    std::ifstream in(argv[1], std::ios::binary | std::ios::ate);
     std::vector<Point> points;
+    points.reserve(static_cast<std::size_t>(in.tellg()) / (3 * sizeof(double)));
+    in.seekg(0);
     double p[3];
     while (in.read(reinterpret_cast<char*>(p), sizeof p)) points.emplace_back(p[0], p[1], p[2]);
     if (argc > 2) {
         dump(points, argv[2]);
         return 0;
     }
-    auto start = std::chrono::steady_clock::now();
+    const long long held = memory("VmRSS");
+    const auto wall = std::chrono::steady_clock::now();
+    const double cpu = processor();
     Plain triangulation(points.begin(), points.end());
-    std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::printf("%.3f %zu %zu\n", seconds.count(), points.size(),
-                static_cast<std::size_t>(triangulation.number_of_finite_cells()));
+    const double cpu_seconds = processor() - cpu;
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - wall;
+    std::printf("cpu=%.4f wall=%.4f points=%zu tetrahedra=%zu held=%lld peak=%lld\n", cpu_seconds,
+                seconds.count(), points.size(),
+                static_cast<std::size_t>(triangulation.number_of_finite_cells()), held, memory("VmHWM"));
 }

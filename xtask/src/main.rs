@@ -22,7 +22,14 @@ usage: cargo xtask <task>
   campaign [CASES [SEED]]           the predicates against exact arithmetic: 10⁷ cases, ten minutes of one core
   picture the README's commands, and the picture that they make
   bench --table                     every fixture reconstructed: docs/benchmarks/fixtures.md
-  bench --delaunay [KIND:COUNT …]   against CGAL, if installed: docs/benchmarks/delaunay.md
+  bench --delaunay [OPTION …] [INPUT …]
+                                    tetrahedralisation, beside CGAL, HXT and TetGen where they are installed:
+                                    docs/benchmarks/delaunay.md. INPUT is KIND:COUNT (uniform, sphere, torus, grid,
+                                    rounded) or file:PATH, little-endian doubles; without one, all that the page shows.
+                                    --quick: small ones, and the page goes to the target folder; --rounds N; --threads N,…; --only NAME,… of the others;
+                                    --keep: adds to what was measured before; --page: only makes the page anew;
+                                    --no-check: without the exact checker.
+                                    PELLICLE_PYTHON names a python with gmsh, for HXT, and perhaps tetgen
   bench --evolution                 shapes and scans, beside others that are installed, and times:
                                     docs/benchmarks/evolution.md; PELLICLE_PYTHON names a python with open3d
   bench --repair [FOLDER]           meshes that cross themselves, beside others that are installed:

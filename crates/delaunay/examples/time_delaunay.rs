@@ -1,138 +1,90 @@
-//! Times the tetrahedralisation of a seeded input: `time_delaunay uniform 1000000 [--dump FILE]`.
+//! Times the tetrahedralisation of a seeded input, or of a file: `time_delaunay uniform 1000000 --threads 2`.
 //!
-//! Prints seconds, points and finite tetrahedra. `--points FILE` writes the coordinates as little-endian
-//! doubles, for other programs to read; `--dump FILE` writes the set of tetrahedra as sorted `u32` ids.
+//! Prints processor seconds of all threads and wall seconds of the call alone, points, finite tetrahedra, and in bytes what
+//! the process held before the call, the points among it, and the most that it ever held:
+//! `cpu=2.610 wall=2.612 points=1000000 tetrahedra=6748359 held=25460736 peak=280510464`.
+//!
+//! * `--threads N`: in a pool of N threads; otherwise in the pool of all cores.
+//! * `--points FILE`: writes the coordinates as little-endian doubles, for other programs, or as `file FILE`, to read.
+//! * `--dump FILE`: writes the set of tetrahedra, four sorted `u32` ids each, sorted.
+//! * `--identical N,…`: tetrahedralises with N threads too, and fails where anything is not the same, bit for bit.
 
-use pellicle_delaunay::{Options, tetrahedralize};
+mod common;
+
+use common::{Arguments, Outcome, memory, spent, with_threads};
+use pellicle_delaunay::{Error, Options, Tetrahedralization, tetrahedralize};
 use pellicle_geometry::DVec3;
-use std::{env, error::Error, fs, time::Instant};
+use std::{fs, path::Path, time::Instant};
 
-fn main() -> Result<(), Box<dyn Error>> {
-    let arguments: Vec<String> = env::args().skip(1).collect();
-    let option = |name: &str| {
-        let place = arguments.iter().position(|argument| argument == name)?;
-        arguments.get(place + 1)
-    };
-    let (kind, count) = match &arguments[..] {
-        [kind, count, ..] => (kind.as_str(), count.parse()?),
-        _ => return Err("usage: time_delaunay uniform|sphere|torus|grid|rounded COUNT".into()),
-    };
-    let points = input(kind, count).ok_or("unknown input")?;
-    if let Some(file) = option("--points") {
-        let bytes: Vec<u8> = points
-            .iter()
-            .flat_map(|p| p.to_array())
-            .flat_map(f64::to_le_bytes)
-            .collect();
-        fs::write(file, bytes)?;
+fn main() -> Outcome {
+    let arguments = Arguments::of_process();
+    let points = arguments.points()?;
+    if let Some(file) = arguments.option("--points") {
+        common::write(Path::new(file), &points)?;
     }
-
-    let start = Instant::now();
-    let tetrahedralization = tetrahedralize(&points, &Options::default())?;
-    let seconds = start.elapsed().as_secs_f64();
-    println!(
-        "{seconds:.3} {} {}",
-        points.len(),
-        tetrahedralization.finite_count()
-    );
-
-    if let Some(file) = option("--dump") {
-        let mut tets: Vec<[u32; 4]> = tetrahedralization
-            .finite_tets()
-            .iter()
-            .map(|tet| {
-                let mut corners = tet.map(|v| v.0);
-                corners.sort_unstable();
-                corners
-            })
-            .collect();
-        tets.sort_unstable();
-        let bytes: Vec<u8> = tets
-            .iter()
-            .flatten()
-            .flat_map(|corner| corner.to_le_bytes())
-            .collect();
-        fs::write(file, bytes)?;
+    let threads = arguments.option("--threads").map(str::parse).transpose()?;
+    let (result, line) = with_threads(threads, || timed(&points))?;
+    let tetrahedralization = result?;
+    println!("{line}");
+    if let Some(file) = arguments.option("--dump") {
+        fs::write(file, sorted_set(&tetrahedralization))?;
+    }
+    for threads in arguments.numbers("--identical")? {
+        let other = with_threads(Some(threads), || measured_call(&points))??;
+        if !is_identical(&tetrahedralization, &other) {
+            return Err(format!("another result with {threads} threads").into());
+        }
+        println!("identical with {threads} threads");
     }
     Ok(())
 }
 
-/// The inputs that published timings use, from a fixed seed.
-fn input(kind: &str, count: usize) -> Option<Vec<DVec3>> {
-    let mut random = SplitMix(12345 + count as u64);
-    let points = match kind {
-        "uniform" => (0..count)
-            .map(|_| DVec3::new(random.unit(), random.unit(), random.unit()))
-            .collect(),
-        "sphere" => (0..count)
-            .map(|_| {
-                let d = random.direction();
-                let bump = (5.0 * d.x).sin() * (5.0 * d.y).sin() * (5.0 * d.z).sin();
-                d * (1.0 + 0.1 * bump)
-            })
-            .collect(),
-        "torus" => (0..count).map(|_| random.on_torus()).collect(),
-        "grid" => {
-            let side = (count as f64).cbrt().round() as usize;
-            let mut grid: Vec<DVec3> = (0..side.pow(3))
-                .map(|i| {
-                    DVec3::new(
-                        (i % side) as f64,
-                        (i / side % side) as f64,
-                        (i / side / side) as f64,
-                    )
-                })
-                .collect();
-            for i in (1..grid.len()).rev() {
-                grid.swap(i, (random.next() % (i as u64 + 1)) as usize);
-            }
-            grid
-        }
-        "rounded" => (0..count)
-            .map(|_| (random.direction() * 10_000.0).round())
-            .collect(),
-        _ => return None,
-    };
-    Some(points)
+/// The result, and the line about it.
+fn timed(points: &[DVec3]) -> (Result<Tetrahedralization<'_>, Error>, String) {
+    let held = memory("VmRSS").unwrap_or(0);
+    let (wall, cpu) = (Instant::now(), spent());
+    let result = measured_call(points);
+    let wall = wall.elapsed();
+    let cpu = spent()
+        .zip(cpu)
+        .map_or(wall, |(after, before)| after - before);
+    let line = format!(
+        "cpu={:.4} wall={:.4} points={} tetrahedra={} held={held} peak={}",
+        cpu.as_secs_f64(),
+        wall.as_secs_f64(),
+        points.len(),
+        result.as_ref().map_or(0, Tetrahedralization::finite_count),
+        memory("VmHWM").unwrap_or(0),
+    );
+    (result, line)
 }
 
-/// The SplitMix64 generator.
-struct SplitMix(u64);
+/// A function of its own, so that a profiler may count what happens inside of it alone.
+#[inline(never)]
+fn measured_call(points: &[DVec3]) -> Result<Tetrahedralization<'_>, Error> {
+    tetrahedralize(points, &Options::default())
+}
 
-impl SplitMix {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
+fn is_identical(one: &Tetrahedralization, other: &Tetrahedralization) -> bool {
+    one.tets() == other.tets()
+        && one.twins() == other.twins()
+        && one.finite_count() == other.finite_count()
+        && one.duplicates() == other.duplicates()
+}
 
-    fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let p = DVec3::new(self.unit(), self.unit(), self.unit()) * 2.0 - 1.0;
-            let square = p.length_squared();
-            if (1e-6..=1.0).contains(&square) {
-                return p / square.sqrt();
-            }
-        }
-    }
-
-    /// R = 1, r = 0.4, uniform in area.
-    fn on_torus(&mut self) -> DVec3 {
-        loop {
-            let (u, v) = (
-                self.unit() * std::f64::consts::TAU,
-                self.unit() * std::f64::consts::TAU,
-            );
-            let ring = 1.0 + 0.4 * v.cos();
-            if self.unit() * 1.4 <= ring {
-                return DVec3::new(ring * u.cos(), ring * u.sin(), 0.4 * v.sin());
-            }
-        }
-    }
+fn sorted_set(tetrahedralization: &Tetrahedralization) -> Vec<u8> {
+    let mut tets: Vec<[u32; 4]> = tetrahedralization
+        .finite_tets()
+        .iter()
+        .map(|tet| {
+            let mut corners = tet.map(|v| v.0);
+            corners.sort_unstable();
+            corners
+        })
+        .collect();
+    tets.sort_unstable();
+    tets.iter()
+        .flatten()
+        .flat_map(|corner| corner.to_le_bytes())
+        .collect()
 }

@@ -15,14 +15,11 @@ use std::process::Command;
 pub fn run(root: &Path, arguments: &[&str]) -> Outcome {
     match arguments {
         ["--table"] => fixtures::run(root),
-        ["--delaunay", inputs @ ..] => delaunay::run(root, inputs),
+        ["--delaunay", words @ ..] => delaunay::run(root, words),
         ["--evolution"] => evolution::run(root),
         ["--repair"] => repair::run(root, None),
         ["--repair", folder] => repair::run(root, Some(Path::new(folder))),
-        _ => Err(
-            "bench wants --table, --delaunay [INPUT:COUNT …], --evolution, or --repair [FOLDER]"
-                .into(),
-        ),
+        _ => Err("bench wants --table, --delaunay …, --evolution, or --repair [FOLDER]".into()),
     }
 }
 
@@ -34,6 +31,12 @@ fn target_folder(root: &Path) -> Result<PathBuf, String> {
         .as_str()
         .ok_or("cargo metadata: no target directory")?;
     Ok(PathBuf::from(folder))
+}
+
+/// The python that runs other programs' drivers: that of PELLICLE_PYTHON, else `python3`.
+fn python() -> PathBuf {
+    let python = std::env::var_os("PELLICLE_PYTHON").unwrap_or_else(|| "python3".into());
+    PathBuf::from(python)
 }
 
 /// Builds the command line in release, and returns where it is and a folder for what it writes.
@@ -55,7 +58,7 @@ fn cgal_program(root: &Path, scratch: &Path, name: &str) -> Result<PathBuf, Stri
     let program = scratch.join(name);
     let source = format!("xtask/peers/{name}.cpp");
     let output = program.to_string_lossy().into_owned();
-    // CGAL's interval arithmetic wants -frounding-math of gcc.
+    // CGAL's interval arithmetic wants -frounding-math of gcc. No -march=native, which ours does not get either.
     let words = [
         "g++",
         "-std=c++17",
@@ -98,11 +101,15 @@ fn load() -> Option<f64> {
 
 /// Writes a page under `docs/benchmarks/`.
 fn write_page(root: &Path, name: &str, text: &str) -> Outcome {
-    let folder = root.join("docs/benchmarks");
+    write_file(&root.join("docs/benchmarks"), name, text)
+}
+
+/// Writes a file into a folder, which is made if it is not there, and says so.
+fn write_file(folder: &Path, name: &str, text: &str) -> Outcome {
     let path = folder.join(name);
-    std::fs::create_dir_all(&folder)
+    std::fs::create_dir_all(folder)
         .and_then(|()| std::fs::write(&path, text))
         .map_err(|error| format!("{}: {error}", path.display()))?;
-    eprintln!("wrote docs/benchmarks/{name}");
+    eprintln!("wrote {}", path.display());
     Ok(())
 }

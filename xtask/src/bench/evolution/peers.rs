@@ -107,8 +107,7 @@ impl Program {
 
 /// A python that has open3d: that of PELLICLE_PYTHON, else `python3`.
 fn python() -> Option<PathBuf> {
-    let python = std::env::var_os("PELLICLE_PYTHON").unwrap_or_else(|| "python3".into());
-    let python = PathBuf::from(python);
+    let python = crate::bench::python();
     let tried = measured::run(&python, &["-c", "import open3d, numpy"]);
     tried.is_ok().then_some(python)
 }

@@ -116,8 +116,7 @@ impl Run {
 
 /// A python that has this module: that of PELLICLE_PYTHON, else `python3`.
 fn python(module: &str) -> Result<PathBuf, String> {
-    let python = std::env::var_os("PELLICLE_PYTHON").unwrap_or_else(|| "python3".into());
-    let python = PathBuf::from(python);
+    let python = crate::bench::python();
     measured::run(&python, &["-c", &format!("import numpy, {module}")])
         .map_err(|_| format!("no python with {module}"))?;
     Ok(python)

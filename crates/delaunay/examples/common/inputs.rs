@@ -1,0 +1,98 @@
+//! The inputs that published timings use, from fixed seeds.
+
+use pellicle_geometry::DVec3;
+
+/// What [`input`] can make.
+pub const KINDS: [&str; 5] = ["uniform", "sphere", "torus", "grid", "rounded"];
+
+/// `count` points of a kind, the same in every run; `None` for a kind that is not in [`KINDS`].
+///
+/// * `uniform`: in the unit cube;
+/// * `sphere`: on a bumpy sphere, r = 1 + sin 5x sin 5y sin 5z / 10 over uniform directions;
+/// * `torus`: R = 1, r = 0.4, uniform in area;
+/// * `grid`: the integer points of a cube, shuffled; the cube nearest to `count`;
+/// * `rounded`: on a sphere of radius 1000, rounded to integers, so that many are cospherical and some equal.
+pub fn input(kind: &str, count: usize) -> Option<Vec<DVec3>> {
+    let mut random = SplitMix(12345 + count as u64);
+    let points = match kind {
+        "uniform" => (0..count).map(|_| random.in_cube()).collect(),
+        "sphere" => (0..count)
+            .map(|_| {
+                let d = random.direction();
+                let bump = (5.0 * d.x).sin() * (5.0 * d.y).sin() * (5.0 * d.z).sin();
+                d * (1.0 + 0.1 * bump)
+            })
+            .collect(),
+        "torus" => (0..count).map(|_| random.on_torus()).collect(),
+        "grid" => {
+            let side = (count as f64).cbrt().round() as usize;
+            let mut grid: Vec<DVec3> = (0..side.pow(3))
+                .map(|i| {
+                    DVec3::new(
+                        (i % side) as f64,
+                        (i / side % side) as f64,
+                        (i / side / side) as f64,
+                    )
+                })
+                .collect();
+            random.shuffle(&mut grid);
+            grid
+        }
+        "rounded" => (0..count)
+            .map(|_| (random.direction() * 1000.0).round())
+            .collect(),
+        _ => return None,
+    };
+    Some(points)
+}
+
+/// The SplitMix64 generator.
+pub struct SplitMix(pub u64);
+
+impl SplitMix {
+    /// 64 random bits.
+    pub fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [0, 1), a multiple of 2⁻⁵³.
+    pub fn unit(&mut self) -> f64 {
+        (self.next() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Puts the items into a random order.
+    pub fn shuffle<T>(&mut self, items: &mut [T]) {
+        for i in (1..items.len()).rev() {
+            items.swap(i, (self.next() % (i as u64 + 1)) as usize);
+        }
+    }
+
+    fn in_cube(&mut self) -> DVec3 {
+        DVec3::new(self.unit(), self.unit(), self.unit())
+    }
+
+    fn direction(&mut self) -> DVec3 {
+        loop {
+            let p = self.in_cube() * 2.0 - 1.0;
+            let square = p.length_squared();
+            if (1e-6..=1.0).contains(&square) {
+                return p / square.sqrt();
+            }
+        }
+    }
+
+    fn on_torus(&mut self) -> DVec3 {
+        loop {
+            let u = self.unit() * std::f64::consts::TAU;
+            let v = self.unit() * std::f64::consts::TAU;
+            let ring = 1.0 + 0.4 * v.cos();
+            if self.unit() * 1.4 <= ring {
+                return DVec3::new(ring * u.cos(), ring * u.sin(), 0.4 * v.sin());
+            }
+        }
+    }
+}

@@ -1,0 +1,110 @@
+//! What the examples share: inputs, arguments, clocks.
+#![allow(dead_code)] // each example uses a part
+
+pub mod inputs;
+
+use pellicle_geometry::DVec3;
+use std::{error::Error, fs, io, path::Path, time::Duration};
+
+/// What `main` returns.
+pub type Outcome<T = ()> = Result<T, Box<dyn Error>>;
+
+/// KIND COUNT, or `file` PATH, then options that each have a value.
+pub struct Arguments(Vec<String>);
+
+impl Arguments {
+    /// Those of the process.
+    pub fn of_process() -> Self {
+        Self(std::env::args().skip(1).collect())
+    }
+
+    /// The value behind an option's name.
+    pub fn option(&self, name: &str) -> Option<&str> {
+        let place = self.0.iter().position(|argument| argument == name)?;
+        self.0.get(place + 1).map(String::as_str)
+    }
+
+    /// The numbers behind an option's name, with commas between.
+    pub fn numbers(&self, name: &str) -> Outcome<Vec<usize>> {
+        let Some(text) = self.option(name) else {
+            return Ok(Vec::new());
+        };
+        Ok(text.split(',').map(str::parse).collect::<Result<_, _>>()?)
+    }
+
+    /// The points that the first two arguments name: a kind and a count, or `file` and a path of doubles.
+    pub fn points(&self) -> Outcome<Vec<DVec3>> {
+        match &self.0[..] {
+            [kind, path, ..] if kind == "file" => Ok(read(Path::new(path))?),
+            [kind, count, ..] => inputs::input(kind, count.parse()?)
+                .ok_or_else(|| format!("kinds are {} and file", inputs::KINDS.join(", ")).into()),
+            _ => Err("KIND COUNT, or file PATH, is wanted".into()),
+        }
+    }
+}
+
+/// Points as little-endian doubles, three each.
+pub fn read(path: &Path) -> io::Result<Vec<DVec3>> {
+    let bytes = fs::read(path)?;
+    let mut doubles = bytes.chunks_exact(8).map(|eight| {
+        f64::from_le_bytes(
+            eight
+                .try_into()
+                .expect("chunks of eight bytes have eight bytes"),
+        )
+    });
+    let mut points = Vec::with_capacity(bytes.len() / 24);
+    while let (Some(x), Some(y), Some(z)) = (doubles.next(), doubles.next(), doubles.next()) {
+        points.push(DVec3::new(x, y, z));
+    }
+    Ok(points)
+}
+
+/// Writes points so that [`read`] reads them.
+pub fn write(path: &Path, points: &[DVec3]) -> io::Result<()> {
+    let bytes: Vec<u8> = points
+        .iter()
+        .flat_map(|p| p.to_array())
+        .flat_map(f64::to_le_bytes)
+        .collect();
+    fs::write(path, bytes)
+}
+
+/// Runs a task with so many threads at its disposal, or with all there are.
+pub fn with_threads<T: Send>(
+    threads: Option<usize>,
+    task: impl FnOnce() -> T + Send,
+) -> Outcome<T> {
+    let Some(threads) = threads else {
+        return Ok(task());
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    Ok(pool.build()?.install(task))
+}
+
+/// The time that all threads of the process have spent; `None` where the system does not tell.
+pub fn spent() -> Option<Duration> {
+    #[cfg(unix)]
+    {
+        let spent = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
+        Some(Duration::new(
+            spent.tv_sec.try_into().ok()?,
+            spent.tv_nsec.try_into().ok()?,
+        ))
+    }
+    #[cfg(not(unix))]
+    None
+}
+
+/// A line of Linux's account of the process, in bytes: `VmRSS` is what it holds, `VmHWM` the most it held.
+pub fn memory(line: &str) -> Option<u64> {
+    let status = fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|text| text.strip_prefix(line))?;
+    let kibibytes: u64 = line
+        .trim_start_matches(':')
+        .split_whitespace()
+        .next()?
+        .parse()
+        .ok()?;
+    Some(kibibytes * 1024)
+}
