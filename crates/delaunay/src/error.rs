@@ -2,7 +2,8 @@
 
 use pellicle_geometry::{Cancelled, VertexId};
 
-/// Why [`tetrahedralize`](crate::tetrahedralize) has no result, or a
+/// Why [`tetrahedralize`](crate::tetrahedralize) or
+/// [`tetrahedralize_weighted`](crate::tetrahedralize_weighted) has no result, or a
 /// [`DynamicTetrahedralization`](crate::DynamicTetrahedralization) stays as it is.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -43,6 +44,20 @@ pub enum Error {
     #[error("{} is not the id of a vertex: it was removed, or never inserted", .vertex.0)]
     NotAVertex {
         /// The id.
+        vertex: VertexId,
+    },
+    /// There is not one weight for each point.
+    #[error("{weights} weights for {points} points: each point needs one")]
+    WeightCount {
+        /// How many points there are.
+        points: usize,
+        /// How many weights.
+        weights: usize,
+    },
+    /// A weight is NaN or infinite.
+    #[error("the weight of point {} is not finite", .vertex.0)]
+    WeightNotFinite {
+        /// The first such point.
         vertex: VertexId,
     },
     /// The observer asked to stop.

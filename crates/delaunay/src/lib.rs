@@ -23,6 +23,9 @@
 //! assert!(tetrahedralization.validate().is_empty());
 //! # Ok::<(), pellicle_delaunay::Error>(())
 //! ```
+//!
+//! **Weights.** [`tetrahedralize_weighted`] makes the regular triangulation of points with weights, and names the
+//! points that their weights hide.
 #![forbid(unsafe_code)]
 
 mod build;
@@ -34,6 +37,7 @@ mod error;
 mod id;
 mod locate;
 mod options;
+mod regular;
 mod tetrahedralization;
 mod validate;
 mod voronoi;
@@ -45,6 +49,9 @@ pub use error::Error;
 pub use id::{FACET_CORNERS, FacetId, TetId};
 pub use locate::Location;
 pub use options::{InsertionOrder, Options};
+pub use regular::{
+    RegularTetrahedralization, tetrahedralize_weighted, tetrahedralize_weighted_with,
+};
 pub use tetrahedralization::Tetrahedralization;
 pub use validate::Defect;
 pub use voronoi::{VoronoiCell, VoronoiEdge, VoronoiFacet, VoronoiVertex};

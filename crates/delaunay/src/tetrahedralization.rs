@@ -130,7 +130,7 @@ impl<'a> Tetrahedralization<'a> {
     /// for ids out of range.
     #[inline]
     pub fn incident(&self, vertex: VertexId) -> Option<TetId> {
-        self.incident.get(vertex.index()).copied()
+        self.incident.get(vertex.index()).and_then(|tet| tet.some())
     }
 
     /// (duplicate, representative) for each point that equals one with a lower id, sorted.

@@ -24,27 +24,46 @@ pub enum Defect {
     NotDelaunay(TetId, VertexId),
     /// The tetrahedron that the vertex names does not hold it; or none holds it.
     Incident(VertexId),
+    /// A point that is hidden by its weight lies inside the sphere of a tetrahedron, or is a vertex.
+    Hidden(VertexId),
     /// A duplicate does not equal its representative.
     Duplicate(VertexId),
     /// Vertices − edges + facets − tetrahedra, infinity included, is not 0 as on a 3-sphere; the value.
     Euler(i64),
 }
 
+/// The sign of the perturbed test whether a vertex is inside the sphere of four others.
+type Inside<'a> = dyn Fn([VertexId; 4], VertexId) -> Sign + 'a;
+
 impl Tetrahedralization<'_> {
     /// All defects of combinatorics, orientation, and the local Delaunay property, which implies the
     /// global one. Exact; O(n log n) time.
     pub fn validate(&self) -> Vec<Defect> {
+        self.validate_by(&self.unweighted(), &[])
+    }
+
+    /// The in-sphere test, unfiltered.
+    fn unweighted(&self) -> impl Fn([VertexId; 4], VertexId) -> Sign {
+        |corners, vertex| {
+            let [a, b, c, d] = self.positions(corners);
+            lifted::insphere(a, b, c, d, self.points()[vertex.index()])
+        }
+    }
+
+    /// [`validate`](Self::validate) with another test of spheres, and points that are no vertices.
+    pub(crate) fn validate_by(&self, inside: &Inside, hidden: &[VertexId]) -> Vec<Defect> {
         let mut defects = Vec::new();
         self.validate_corners(&mut defects);
         if !defects.is_empty() {
             return defects; // nothing below could be asked
         }
         self.validate_twins(&mut defects);
-        self.validate_vertices(&mut defects);
+        self.validate_vertices(hidden, &mut defects);
         self.validate_orientation(&mut defects);
         if defects.is_empty() {
-            self.validate_euler(&mut defects);
-            self.validate_locally(&mut defects);
+            self.validate_euler(hidden.len(), &mut defects);
+            self.validate_locally(inside, &mut defects);
+            self.validate_hidden(inside, hidden, &mut defects);
         }
         defects
     }
@@ -52,11 +71,16 @@ impl Tetrahedralization<'_> {
     /// Every vertex inside the perturbed sphere of any tetrahedron, by brute force: O(vertices ×
     /// tetrahedra), for small sets.
     pub fn validate_globally(&self) -> Vec<Defect> {
+        self.validate_globally_by(&self.unweighted())
+    }
+
+    /// [`validate_globally`](Self::validate_globally) with another test of spheres.
+    pub(crate) fn validate_globally_by(&self, inside: &Inside) -> Vec<Defect> {
         let mut defects = Vec::new();
         for t in (0..self.tets().len()).map(TetId::new) {
             for vertex in (0..self.points().len()).map(VertexId::new) {
                 let is_corner = self.corner_of(t, self.representative(vertex)).is_some();
-                if !is_corner && self.holds_inside(t, vertex) {
+                if !is_corner && self.holds_inside(inside, t, vertex) {
                     defects.push(Defect::NotDelaunay(t, vertex));
                 }
             }
@@ -98,7 +122,7 @@ impl Tetrahedralization<'_> {
         }
     }
 
-    fn validate_vertices(&self, defects: &mut Vec<Defect>) {
+    fn validate_vertices(&self, hidden: &[VertexId], defects: &mut Vec<Defect>) {
         for vertex in (0..self.points().len()).map(VertexId::new) {
             let representative = self.representative(vertex);
             if self.points()[vertex.index()] != self.points()[representative.index()] {
@@ -107,7 +131,11 @@ impl Tetrahedralization<'_> {
             let held = self.incident(vertex).filter(|tet| {
                 self.is_finite(*tet) && self.corner_of(*tet, representative).is_some()
             });
-            if held.is_none() {
+            if hidden.binary_search(&representative).is_ok() {
+                if self.incident(vertex).is_some() {
+                    defects.push(Defect::Hidden(vertex));
+                }
+            } else if held.is_none() {
                 defects.push(Defect::Incident(vertex));
             }
         }
@@ -123,7 +151,7 @@ impl Tetrahedralization<'_> {
     }
 
     /// Over the one-point compactification, a 3-sphere.
-    fn validate_euler(&self, defects: &mut Vec<Defect>) {
+    fn validate_euler(&self, hidden: usize, defects: &mut Vec<Defect>) {
         let mut edges: Vec<(VertexId, VertexId)> = self
             .tets()
             .iter()
@@ -135,32 +163,60 @@ impl Tetrahedralization<'_> {
         edges.sort_unstable();
         edges.dedup();
         let tets = self.tets().len() as i64;
-        let vertices = self.vertex_count() as i64 + 1;
+        let vertices = self.vertex_count() as i64 - hidden as i64 + 1;
         let euler = vertices - edges.len() as i64 + 2 * tets - tets;
         if euler != 0 {
             defects.push(Defect::Euler(euler));
         }
     }
 
-    fn validate_locally(&self, defects: &mut Vec<Defect>) {
+    fn validate_locally(&self, inside: &Inside, defects: &mut Vec<Defect>) {
         for t in 0..self.tets().len() {
             for corner in 0..4 {
                 let facet = FacetId::of(TetId::new(t), corner);
                 let twin = self.twin(facet);
                 let beyond = self.tet(twin.tet())[twin.corner()];
-                if beyond != Self::INFINITE && self.holds_inside(facet.tet(), beyond) {
+                if beyond != Self::INFINITE && self.holds_inside(inside, facet.tet(), beyond) {
                     defects.push(Defect::NotLocallyDelaunay(facet));
                 }
             }
         }
     }
 
+    /// A hidden point is inside no sphere if it is not inside that of the tetrahedron that contains it.
+    fn validate_hidden(&self, inside: &Inside, hidden: &[VertexId], defects: &mut Vec<Defect>) {
+        for &vertex in hidden {
+            let contained_in = self.containing(self.points()[vertex.index()]);
+            if contained_in.is_none_or(|tet| self.holds_inside(inside, tet, vertex)) {
+                defects.push(Defect::Hidden(vertex));
+            }
+        }
+    }
+
+    /// A finite tetrahedron that contains the point, by a walk as long as there are tetrahedra at most.
+    fn containing(&self, p: DVec3) -> Option<TetId> {
+        let mut tet = TetId(0);
+        for _ in 0..=self.tets().len() {
+            let beyond = (0..4)
+                .map(|corner| FacetId::of(tet, corner))
+                .find(|&facet| {
+                    let [a, b, c] = self.facet(facet).map(|v| self.points()[v.index()]);
+                    orient3d(a, b, c, p) == Sign::Negative
+                });
+            match beyond.map(|facet| self.twin(facet).tet()) {
+                None => return Some(tet),
+                Some(next) if self.is_finite(next) => tet = next,
+                Some(_) => return None,
+            }
+        }
+        None
+    }
+
     /// Whether the vertex is inside the perturbed sphere of the tetrahedron, by the unfiltered signs.
-    fn holds_inside(&self, tet: TetId, vertex: VertexId) -> bool {
+    fn holds_inside(&self, inside: &Inside, tet: TetId, vertex: VertexId) -> bool {
         let e = self.points()[vertex.index()];
         if self.is_finite(tet) {
-            let [a, b, c, d] = self.positions(self.tet(tet));
-            return lifted::insphere(a, b, c, d, e) == Sign::Positive;
+            return inside(self.tet(tet), vertex) == Sign::Positive;
         }
         let corners = self.tet(tet);
         let [a, b, c] = [corners[0], corners[1], corners[2]].map(|v| self.points()[v.index()]);
@@ -169,9 +225,8 @@ impl Tetrahedralization<'_> {
             Sign::Negative => false,
             Sign::Zero => {
                 let behind = self.twin(FacetId::of(tet, 3)).tet();
-                let [a, b, c, d] = self.positions(self.tet(behind));
                 // On the facet's plane the sphere behind it is the facet's circle.
-                lifted::insphere(a, b, c, d, e) == Sign::Positive
+                inside(self.tet(behind), vertex) == Sign::Positive
             }
         }
     }

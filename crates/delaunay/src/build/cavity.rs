@@ -1,8 +1,10 @@
 //! The conflict region: dig it out, and fill it with tetrahedra around the new vertex.
 
-use super::kernel::{INFINITE, Kernel, Mark};
+use super::{
+    conflict::Query,
+    kernel::{INFINITE, Kernel, Mark},
+};
 use crate::{Error, FacetId, TetId, id::facet_vertices};
-use glam::DVec3;
 use pellicle_geometry::VertexId;
 
 /// Up to this many vertices on a cavity's boundary, edges are paired through a table with a row and a
@@ -66,7 +68,7 @@ impl Kernel {
     /// Finds all tetrahedra in conflict with `p`, breadth first from `start`, and the facets around them.
     /// The conflict region is connected and star-shaped around `p`: the signs are exact.
     #[inline(never)]
-    pub(super) fn dig(&mut self, start: TetId, p: DVec3) {
+    pub(super) fn dig(&mut self, start: TetId, p: impl Query) {
         // Out of `self`, so that the conflict test may borrow it.
         let mut conflict = std::mem::take(&mut self.cavity.conflict);
         let mut boundary = std::mem::take(&mut self.cavity.boundary);

@@ -7,6 +7,7 @@ mod first;
 mod kernel;
 mod locate;
 mod steps;
+mod weighted;
 
 #[cfg(test)]
 pub(crate) mod tests;
@@ -18,6 +19,7 @@ pub(crate) use steps::{BoundaryFacet, INFINITE};
 
 use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId, first_not_finite};
 use pellicle_spatial::brio;
+pub(crate) use weighted::tetrahedralize_weighted;
 
 /// Points inserted between two calls of the observer: some milliseconds' work.
 const POINTS_PER_STEP: usize = 4096;
