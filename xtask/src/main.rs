@@ -30,6 +30,8 @@ usage: cargo xtask <task>
                                     --keep: adds to what was measured before; --page: only makes the page anew;
                                     --no-check: without the exact checker.
                                     PELLICLE_PYTHON names a python with gmsh, for HXT, and perhaps tetgen
+  bench --instructions [--accept]   instructions of small tetrahedralisations, counted by valgrind, against those stored
+                                    in docs/benchmarks/instructions.json; --accept stores what is counted
   bench --evolution                 shapes and scans, beside others that are installed, and times:
                                     docs/benchmarks/evolution.md; PELLICLE_PYTHON names a python with open3d
   bench --repair [FOLDER]           meshes that cross themselves, beside others that are installed:

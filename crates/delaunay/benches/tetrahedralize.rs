@@ -1,56 +1,81 @@
 //! Times by kind of input: `cargo bench -p pellicle-delaunay`.
 //!
-//! `order` is the order of insertion alone, `tetrahedralize` all of it, so the difference is location, cavities and
-//! retriangulation. One thread; what more threads bring is measured by `cargo xtask bench --delaunay`.
+//! `order` is the order of insertion alone and `tetrahedralize` all of it, by point; the difference is location, cavities and
+//! their retriangulation. `locate`, `insert` and `remove` are by step, in a tetrahedralisation that is there. One thread; what
+//! more of them bring is measured by `cargo xtask bench --delaunay`.
 
 #[path = "../examples/common/mod.rs"]
 mod common;
 
 use common::inputs::{KINDS, input};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use pellicle_delaunay::{Options, tetrahedralize};
+use criterion::{
+    BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main,
+    measurement::WallTime,
+};
+use pellicle_delaunay::{DynamicTetrahedralization, Options, tetrahedralize};
 use pellicle_geometry::DVec3;
 use pellicle_spatial::brio;
 use std::hint::black_box;
 
-/// Points of each kind.
+/// Points of each kind; the last tenth is located, inserted and removed.
 const COUNT: usize = 20_000;
 
 fn by_kind(criterion: &mut Criterion) {
-    let alone = rayon::ThreadPoolBuilder::new().num_threads(1).build();
-    let alone = alone.expect("a pool of one thread can be built");
-    let inputs: Vec<(&str, Vec<DVec3>)> = KINDS
-        .iter()
-        .filter_map(|&kind| Some((kind, input(kind, COUNT)?)))
-        .collect();
-
-    let mut group = criterion.benchmark_group("order");
-    for (kind, points) in &inputs {
+    let alone = rayon::ThreadPoolBuilder::new().num_threads(1);
+    alone.build_global().expect("nobody asked for threads yet");
+    for kind in KINDS {
+        let points = input(kind, COUNT).expect("every kind has points");
+        let mut group = criterion.benchmark_group(kind);
+        group.sample_size(10);
         group.throughput(Throughput::Elements(points.len() as u64));
-        group.bench_with_input(
-            BenchmarkId::from_parameter(kind),
-            points,
-            |bencher, points| {
-                alone.install(|| bencher.iter(|| brio::order(black_box(points))));
-            },
-        );
+        group.bench_function("order", |bencher| {
+            bencher.iter(|| brio::order(black_box(&points)));
+        });
+        group.bench_function("tetrahedralize", |bencher| {
+            bencher.iter(|| tetrahedralize(black_box(&points), &Options::default()).map(drop));
+        });
+        stepwise(&mut group, &points);
+        group.finish();
     }
-    group.finish();
+}
 
-    let mut group = criterion.benchmark_group("tetrahedralize");
-    group.sample_size(10);
-    for (kind, points) in &inputs {
-        group.throughput(Throughput::Elements(points.len() as u64));
-        group.bench_with_input(
-            BenchmarkId::from_parameter(kind),
-            points,
-            |bencher, points| {
-                let options = Options::default();
-                alone.install(|| bencher.iter(|| tetrahedralize(black_box(points), &options)));
-            },
-        );
-    }
-    group.finish();
+fn stepwise(group: &mut BenchmarkGroup<WallTime>, points: &[DVec3]) {
+    let (most, last) = points.split_at(points.len() / 10 * 9);
+    let there = || DynamicTetrahedralization::of_points(most).expect("the kinds have sound points");
+    let with_last = || {
+        let mut there = there();
+        let inserted = last.iter().map(|&p| there.insert(p));
+        let mut vertices: Vec<_> = inserted
+            .map(|vertex| vertex.expect("there is room"))
+            .collect();
+        vertices.sort_unstable();
+        vertices.dedup();
+        (there, vertices)
+    };
+    group.throughput(Throughput::Elements(last.len() as u64));
+    let fixed = there();
+    group.bench_function("locate", |bencher| {
+        bencher.iter(|| {
+            last.iter()
+                .filter_map(|&p| fixed.locate(black_box(p), None))
+                .count()
+        });
+    });
+    group.bench_function("insert", |bencher| {
+        let insert = |mut there: DynamicTetrahedralization| {
+            last.iter().filter(|&&p| there.insert(p).is_ok()).count()
+        };
+        bencher.iter_batched(there, insert, BatchSize::PerIteration);
+    });
+    group.bench_function("remove", |bencher| {
+        let remove = |(mut there, vertices): (DynamicTetrahedralization, Vec<_>)| {
+            vertices
+                .into_iter()
+                .filter(|&v| there.remove(v).is_ok())
+                .count()
+        };
+        bencher.iter_batched(with_last, remove, BatchSize::PerIteration);
+    });
 }
 
 criterion_group!(benches, by_kind);

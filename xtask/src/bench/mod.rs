@@ -3,6 +3,7 @@
 mod delaunay;
 mod evolution;
 mod fixtures;
+mod instructions;
 mod measured;
 mod repair;
 
@@ -11,15 +12,19 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-/// `--table`, `--delaunay …`, `--evolution` or `--repair …`.
+/// `--table`, `--delaunay …`, `--instructions …`, `--evolution` or `--repair …`.
 pub fn run(root: &Path, arguments: &[&str]) -> Outcome {
     match arguments {
         ["--table"] => fixtures::run(root),
         ["--delaunay", words @ ..] => delaunay::run(root, words),
+        ["--instructions", words @ ..] => instructions::run(root, words),
         ["--evolution"] => evolution::run(root),
         ["--repair"] => repair::run(root, None),
         ["--repair", folder] => repair::run(root, Some(Path::new(folder))),
-        _ => Err("bench wants --table, --delaunay …, --evolution, or --repair [FOLDER]".into()),
+        _ => Err(
+            "bench wants --table, --delaunay …, --instructions, --evolution, or --repair [FOLDER]"
+                .into(),
+        ),
     }
 }
 

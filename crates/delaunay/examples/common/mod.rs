@@ -18,6 +18,11 @@ impl Arguments {
         Self(std::env::args().skip(1).collect())
     }
 
+    /// The argument at this place, from 0.
+    pub fn word(&self, place: usize) -> Option<&str> {
+        self.0.get(place).map(String::as_str)
+    }
+
     /// The value behind an option's name.
     pub fn option(&self, name: &str) -> Option<&str> {
         let place = self.0.iter().position(|argument| argument == name)?;
