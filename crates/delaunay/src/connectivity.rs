@@ -12,14 +12,14 @@ pub trait Connectivity {
     /// The same facet seen from the other side.
     fn other_side(&self, facet: FacetId) -> FacetId;
 
-    /// The point of a vertex, which a corner of a tetrahedron names.
+    /// The point at an id below [`vertex_limit`](Self::vertex_limit); not a number if that names no vertex now.
     fn position(&self, vertex: VertexId) -> DVec3;
 
     /// A finite tetrahedron at the vertex. `None` for the vertex at infinity, for ids out of range, and for
     /// ids that name no vertex now.
     fn tet_at(&self, vertex: VertexId) -> Option<TetId>;
 
-    /// Vertex ids are below this number.
+    /// Vertex ids, that at infinity excepted, are below this number.
     fn vertex_limit(&self) -> usize;
 
     /// Some tetrahedron; `None` where there is none.

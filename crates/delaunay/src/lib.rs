@@ -10,6 +10,12 @@
 //! cospherical points are told apart by a perturbation in the lifted dimension (Devillers and Teillaud
 //! 2011), so the tetrahedra depend on the *set* of points alone, however degenerate.
 //!
+//! A [`DynamicTetrahedralization`] owns its points and changes with them: [`insert`] and [`remove`]. What one
+//! can ask of either, with examples and costs, is in the [`guide`].
+//!
+//! [`insert`]: DynamicTetrahedralization::insert
+//! [`remove`]: DynamicTetrahedralization::remove
+//!
 //! ```
 //! use pellicle_delaunay::{Options, tetrahedralize};
 //! use pellicle_geometry::DVec3;
@@ -34,6 +40,7 @@ mod circumcenter;
 mod connectivity;
 mod dynamic;
 mod error;
+pub mod guide;
 mod id;
 mod locate;
 mod options;

@@ -87,14 +87,21 @@ impl Kernel {
 
     // Whole tetrahedralisations.
 
+    /// Leaves no tetrahedra; the storage is kept.
+    pub(crate) fn clear(&mut self) {
+        self.tets.clear();
+        self.twins.clear();
+        self.marks.clear();
+        self.vacant.clear();
+        self.recent = TetId(0);
+    }
+
     /// Takes over tetrahedra among the points.
     pub(crate) fn load(&mut self, tets: Vec<[VertexId; 4]>, twins: Vec<[FacetId; 4]>) {
-        self.vacant.clear();
-        self.marks.clear();
+        self.clear();
         self.marks.resize(tets.len(), Mark::Untested);
         self.tets = tets;
         self.twins = twins;
-        self.recent = TetId(0);
     }
 
     /// Replaces everything by the Delaunay tetrahedralisation of a few distinct points, and returns their
@@ -106,7 +113,7 @@ impl Kernel {
             _ => brio::order(points),
         };
         first::four_that_span(points, &mut order)?;
-        self.load(Vec::new(), Vec::new());
+        self.clear();
         self.points.truncate(1);
         self.points
             .extend(order.iter().map(|&i| points[i as usize]));

@@ -130,7 +130,7 @@ impl DynamicTetrahedralization {
             flat.add(vertex, point);
         }
         self.flat = Some(flat);
-        self.kernel.load(Vec::new(), Vec::new());
+        self.kernel.clear();
         self.incident.fill(TetId::NONE);
     }
 }

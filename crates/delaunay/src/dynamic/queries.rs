@@ -59,7 +59,7 @@ impl DynamicTetrahedralization {
     }
 
     /// As [`Tetrahedralization::locate`](crate::Tetrahedralization::locate); `None` also while the points
-    /// are flat. Without a hint the walk starts at the nearest of about n^(1/4) vertices drawn at random and
+    /// are flat. Without a hint the walk starts at the nearest of 8 n^(1/4) vertices drawn at random and
     /// one of the last step.
     pub fn locate(&self, point: DVec3, hint: Option<VertexId>) -> Option<Location> {
         locate::locate(self, point, hint)

@@ -85,10 +85,7 @@ impl DynamicTetrahedralization {
             flat.remove(vertex, point, others);
             self.flat = Some(flat);
         } else {
-            let mut workplace = std::mem::take(&mut self.workplace);
-            let dug = self.dig_out(vertex, point, &mut workplace);
-            self.workplace = workplace;
-            dug?;
+            self.dig_out(vertex, point)?;
         }
         self.free_slot(vertex);
         self.removals += 1;
@@ -99,9 +96,9 @@ impl DynamicTetrahedralization {
     }
 
     /// Takes the tetrahedra at a vertex away and fills the hole.
-    fn dig_out(&mut self, vertex: VertexId, p: DVec3, work: &mut Workplace) -> Result<(), Error> {
+    fn dig_out(&mut self, vertex: VertexId, p: DVec3) -> Result<(), Error> {
         // 1. The hole and the vertices around it.
-        let kernel = &mut self.kernel;
+        let (kernel, work) = (&mut self.kernel, &mut *self.workplace);
         kernel.dig_star(self.incident[vertex.index()], inner(vertex));
         let (_, boundary) = kernel.cavity();
         work.gather(kernel, boundary);
@@ -127,8 +124,8 @@ impl DynamicTetrahedralization {
         }
 
         // 4. The tetrahedra at the vertices around.
-        for &tet in &work.filling {
-            self.register(tet);
+        for k in 0..self.workplace.filling.len() {
+            self.register(self.workplace.filling[k]);
         }
         Ok(())
     }
