@@ -98,5 +98,5 @@ pub fn tetrahedralize_with<'a>(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Tetrahedralization<'a>, Error> {
-    build::tetrahedralize(points, options, progress)
+    build::tetrahedralize(points, None, options, progress)
 }

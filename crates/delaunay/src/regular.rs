@@ -60,7 +60,7 @@ pub fn tetrahedralize_weighted_with<'a>(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<RegularTetrahedralization<'a>, Error> {
-    let tetrahedra = build::tetrahedralize_weighted(points, weights, options, progress)?;
+    let tetrahedra = build::tetrahedralize(points, Some(weights), options, progress)?;
     let is_hidden = |&vertex: &VertexId| {
         tetrahedra.incident(vertex).is_none() && tetrahedra.representative(vertex) == vertex
     };

@@ -4,7 +4,7 @@
 //! insertion, so points that are inserted together lie together in memory. Corner 3 is the only one that
 //! may be infinite.
 
-use super::cavity::Cavity;
+use super::{cavity::Cavity, weighted::Weighted};
 use crate::{Error, FacetId, TetId, id::FACET_CORNERS};
 use glam::DVec3;
 use pellicle_geometry::{Aabb, VertexId};
@@ -29,6 +29,8 @@ pub(super) enum Mark {
 pub(crate) struct Kernel {
     /// By vertex; the first stands for infinity and is never read.
     pub(super) points: Vec<DVec3>,
+    /// By vertex, or none: of a regular triangulation.
+    pub(super) weights: Vec<f64>,
     /// Four corners each, positively oriented; an infinite one as if its vertex at infinity were any point
     /// beyond its hull facet.
     pub(super) tets: Vec<[VertexId; 4]>,
@@ -57,6 +59,7 @@ impl Kernel {
         let mut kernel = Self {
             cavity: Cavity::for_vertices(sorted.len()),
             points: sorted,
+            weights: Vec::new(),
             tets: Vec::with_capacity(expected),
             twins: Vec::with_capacity(expected),
             marks: Vec::with_capacity(expected),
@@ -118,7 +121,19 @@ impl Kernel {
         let vertex = VertexId::new(position + 1);
         let p = self.points[vertex.index()];
         let start = self.locate(p);
-        self.dig(start, p);
+        match self.weights.get(vertex.index()) {
+            None => self.dig(start, p),
+            Some(&weight) => {
+                let weighted = Weighted {
+                    position: p,
+                    weight,
+                };
+                if !self.is_in_conflict(start, weighted) {
+                    return Ok(()); // hidden
+                }
+                self.dig(start, weighted);
+            }
+        }
         self.retriangulate(vertex)
     }
 

@@ -19,29 +19,39 @@ pub(crate) use steps::{BoundaryFacet, INFINITE};
 
 use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId, first_not_finite};
 use pellicle_spatial::brio;
-pub(crate) use weighted::tetrahedralize_weighted;
 
 /// Points inserted between two calls of the observer: some milliseconds' work.
 const POINTS_PER_STEP: usize = 4096;
 
-/// See [`crate::tetrahedralize_with`].
+/// See [`crate::tetrahedralize_with`], and with weights [`crate::tetrahedralize_weighted_with`]: the points that
+/// are then neither vertices nor duplicates have no incident tetrahedron.
 pub(crate) fn tetrahedralize<'a>(
     points: &'a [DVec3],
+    weights: Option<&[f64]>,
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Tetrahedralization<'a>, Error> {
     check(points)?;
+    if let Some(weights) = weights {
+        weighted::check_weights(points, weights)?;
+    }
 
     // 1. The order of insertion, with one representative of each set of equal points.
     let order = match options.order {
         InsertionOrder::Brio => brio::order(points),
         InsertionOrder::AsGiven => duplicates_aside(points),
     };
-    let (mut order, duplicates) = representatives(points, order);
+    let (mut order, duplicates) = match weights {
+        None => representatives(points, order),
+        Some(weights) => weighted::heaviest(points, weights, order),
+    };
 
     // 2. Four points that span a tetrahedron come first.
     first::four_that_span(points, &mut order)?;
     let mut kernel = Kernel::of_first_tetrahedron(points, &order);
+    if let Some(weights) = weights {
+        kernel.set_weights(weights, &order);
+    }
 
     // 3. The others, one by one.
     let total = order.len() as u64;

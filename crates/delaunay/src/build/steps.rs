@@ -22,6 +22,7 @@ impl Kernel {
     pub(crate) fn empty() -> Self {
         Self {
             points: vec![DVec3::NAN],
+            weights: Vec::new(),
             tets: Vec::new(),
             twins: Vec::new(),
             marks: Vec::new(),
