@@ -13,11 +13,11 @@ const MOST_TABLED_VERTICES: usize = 256;
 
 /// A facet between the conflict region and the rest.
 #[derive(Clone, Copy)]
-pub(crate) struct BoundaryFacet {
+pub(super) struct BoundaryFacet {
     /// Clockwise seen from the cavity, so that (new vertex, corners) is positive; infinity comes last.
-    pub(crate) corners: [VertexId; 3],
+    corners: [VertexId; 3],
     /// The facet seen from outside the cavity.
-    pub(crate) outer: FacetId,
+    pub(super) outer: FacetId,
 }
 
 /// Storage of the current conflict region, kept between insertions.
@@ -190,7 +190,7 @@ impl Kernel {
 /// Turns a facet that is counter-clockwise seen from inside around, with the vertex at infinity, if it is
 /// one of them, last.
 #[inline]
-pub(super) fn clockwise_infinity_last([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+fn clockwise_infinity_last([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
     if a == INFINITE {
         [c, b, a]
     } else if b == INFINITE {

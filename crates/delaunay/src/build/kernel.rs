@@ -26,7 +26,7 @@ pub(super) enum Mark {
     Vacant,
 }
 
-pub(crate) struct Kernel {
+pub(super) struct Kernel {
     /// By vertex; the first stands for infinity and is never read.
     pub(super) points: Vec<DVec3>,
     /// By vertex, or none: of a regular triangulation.

@@ -14,8 +14,9 @@ pub(crate) mod tests;
 
 use crate::{Error, InsertionOrder, Options, Tetrahedralization};
 pub(crate) use first::collinear;
-pub(crate) use kernel::Kernel;
-pub(crate) use steps::{BoundaryFacet, INFINITE};
+pub(crate) use kernel::INFINITE;
+use kernel::Kernel;
+pub(crate) use steps::Stepwise;
 
 use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId, first_not_finite};
 use pellicle_spatial::brio;

@@ -1,10 +1,10 @@
-//! Single steps on a kernel that lives on: what the dynamic tetrahedralisation asks of it. The storage of
-//! tetrahedra, twins and marks is known up to here.
+//! A kernel that lives on, changed a step at a time: what the dynamic tetrahedralisation asks for. How
+//! tetrahedra, twins and marks are stored is known up to here.
 
 use super::{
-    cavity::{Cavity, clockwise_infinity_last},
+    cavity::Cavity,
     first,
-    kernel::{Kernel, MOST_TETS, Mark},
+    kernel::{INFINITE, Kernel, MOST_TETS, Mark},
 };
 use crate::{Error, FacetId, TetId, id::facet_vertices};
 use glam::DVec3;
@@ -12,15 +12,38 @@ use pellicle_geometry::{Aabb, VertexId};
 use pellicle_predicates::StaticFilter;
 use pellicle_spatial::brio;
 
-pub(crate) use super::{cavity::BoundaryFacet, kernel::INFINITE};
-
 /// Fewer points than this are inserted as they come: an order costs more than it saves.
 const FEWEST_TO_ORDER: usize = 64;
 
-impl Kernel {
+/// A kernel between insertions and removals. Vertex 0 is the one at infinity.
+pub(crate) struct Stepwise {
+    kernel: Kernel,
+    /// The tetrahedra that are to leave.
+    hole: Vec<TetId>,
+    link: Vec<LinkFacet>,
+}
+
+/// A facet of the link of a vertex: opposite it, in one of its tetrahedra.
+#[derive(Clone, Copy)]
+pub(crate) struct LinkFacet {
+    /// Counter-clockwise seen from the vertex.
+    pub(crate) corners: [VertexId; 3],
+    /// The facet seen from the other side.
+    pub(crate) outer: FacetId,
+}
+
+impl LinkFacet {
+    /// Whether none of its corners is at infinity.
+    #[inline]
+    pub(crate) fn is_finite(&self) -> bool {
+        !self.corners.contains(&INFINITE)
+    }
+}
+
+impl Stepwise {
     /// A kernel without points and tetrahedra.
-    pub(crate) fn empty() -> Self {
-        Self {
+    pub(crate) fn new() -> Self {
+        let kernel = Kernel {
             points: vec![DVec3::NAN],
             weights: Vec::new(),
             tets: Vec::new(),
@@ -30,79 +53,91 @@ impl Kernel {
             filter: StaticFilter::from_bounds(DVec3::ZERO, DVec3::ZERO),
             cavity: Cavity::for_vertices(1),
             recent: TetId(0),
+        };
+        Self {
+            kernel,
+            hole: Vec::new(),
+            link: Vec::new(),
         }
     }
 
     // What is there.
 
     #[inline]
-    pub(crate) fn point_of(&self, vertex: VertexId) -> DVec3 {
-        self.points[vertex.index()]
+    pub(crate) fn point(&self, vertex: VertexId) -> DVec3 {
+        self.kernel.points[vertex.index()]
     }
 
     #[inline]
     pub(crate) fn corners(&self, tet: TetId) -> [VertexId; 4] {
-        self.tets[tet.index()]
+        self.kernel.tets[tet.index()]
     }
 
     #[inline]
     pub(crate) fn twin(&self, facet: FacetId) -> FacetId {
-        self.twins[facet.tet().index()][facet.corner()]
+        self.kernel.twins[facet.tet().index()][facet.corner()]
     }
 
     /// Tetrahedra are named by ids below this number, not all of them in use.
     #[inline]
     pub(crate) fn tet_slots(&self) -> usize {
-        self.tets.len()
+        self.kernel.tets.len()
     }
 
     /// Whether the id names a tetrahedron, between two steps.
     #[inline]
     pub(crate) fn is_in_use(&self, tet: TetId) -> bool {
-        let mark = self.marks.get(tet.index());
+        let mark = self.kernel.marks.get(tet.index());
         mark.is_some_and(|mark| !matches!(mark, Mark::InConflict | Mark::Vacant))
     }
 
     /// A tetrahedron made by the last step.
     #[inline]
     pub(crate) fn recent(&self) -> Option<TetId> {
-        (!self.tets.is_empty()).then_some(self.recent)
+        (self.tet_slots() > 0).then_some(self.kernel.recent)
     }
 
     // Points.
 
     /// Puts a point into the slot of a vertex, which may be the one after the last.
     pub(crate) fn set_point(&mut self, vertex: VertexId, p: DVec3) {
-        if vertex.index() == self.points.len() {
-            self.points.push(p);
-            self.cavity.make_room(self.points.len());
+        let points = &mut self.kernel.points;
+        if vertex.index() == points.len() {
+            points.push(p);
+            self.kernel.cavity.make_room(points.len());
         } else {
-            self.points[vertex.index()] = p;
+            points[vertex.index()] = p;
         }
     }
 
     /// From now on all points lie in this box.
     pub(crate) fn set_bounds(&mut self, bounds: Aabb) {
-        self.filter = StaticFilter::from_bounds(bounds.min, bounds.max);
+        self.kernel.filter = StaticFilter::from_bounds(bounds.min, bounds.max);
     }
 
     // Whole tetrahedralisations.
 
     /// Leaves no tetrahedra; the storage is kept.
     pub(crate) fn clear(&mut self) {
-        self.tets.clear();
-        self.twins.clear();
-        self.marks.clear();
-        self.vacant.clear();
-        self.recent = TetId(0);
+        self.kernel.tets.clear();
+        self.kernel.twins.clear();
+        self.kernel.marks.clear();
+        self.kernel.vacant.clear();
+        self.kernel.recent = TetId(0);
     }
 
-    /// Takes over tetrahedra among the points.
-    pub(crate) fn load(&mut self, tets: Vec<[VertexId; 4]>, twins: Vec<[FacetId; 4]>) {
+    /// Takes over tetrahedra among the points, of which all lie in `bounds`.
+    pub(crate) fn load(
+        &mut self,
+        tets: Vec<[VertexId; 4]>,
+        twins: Vec<[FacetId; 4]>,
+        bounds: Aabb,
+    ) {
         self.clear();
-        self.marks.resize(tets.len(), Mark::Untested);
-        self.tets = tets;
-        self.twins = twins;
+        self.kernel.marks.resize(tets.len(), Mark::Untested);
+        self.kernel.tets = tets;
+        self.kernel.twins = twins;
+        self.set_bounds(bounds);
     }
 
     /// Replaces everything by the Delaunay tetrahedralisation of a few distinct points, and returns their
@@ -115,121 +150,121 @@ impl Kernel {
         };
         first::four_that_span(points, &mut order)?;
         self.clear();
-        self.points.truncate(1);
-        self.points
-            .extend(order.iter().map(|&i| points[i as usize]));
-        self.cavity.make_room(self.points.len());
         self.set_bounds(bounds);
-        self.push_first_tetrahedron();
+        let kernel = &mut self.kernel;
+        kernel.points.truncate(1);
+        let sorted = order.iter().map(|&i| points[i as usize]);
+        kernel.points.extend(sorted);
+        kernel.cavity.make_room(kernel.points.len());
+        kernel.push_first_tetrahedron();
         for position in 4..order.len() {
-            self.insert(position)?;
+            kernel.insert(position)?;
         }
         Ok(order)
     }
 
-    // Cavities.
+    // Insertion.
 
-    /// Makes a vertex of a point already set, from a tetrahedron that is in conflict with it.
-    pub(crate) fn insert_from(&mut self, start: TetId, vertex: VertexId) -> Result<(), Error> {
-        self.dig(start, self.points[vertex.index()]);
-        if let Err(error) = self.check_room(self.cavity.boundary.len()) {
-            self.undo_cavity();
+    /// Makes a vertex of a point already set, from a tetrahedron that is in conflict with it, and returns the
+    /// tetrahedra that fill the cavity.
+    pub(crate) fn insert(&mut self, start: TetId, vertex: VertexId) -> Result<&[TetId], Error> {
+        let kernel = &mut self.kernel;
+        kernel.dig(start, kernel.points[vertex.index()]);
+        let (leave, come) = (kernel.cavity.conflict.len(), kernel.cavity.boundary.len());
+        if let Err(error) = self.check_room(leave, come) {
+            let kernel = &mut self.kernel;
+            let outside = kernel.cavity.boundary.iter().map(|facet| facet.outer.tet());
+            for tet in outside.chain(kernel.cavity.conflict.iter().copied()) {
+                kernel.marks[tet.index()] = Mark::Untested;
+            }
             return Err(error);
         }
-        self.retriangulate(vertex)
+        self.kernel.retriangulate(vertex)?;
+        Ok(&self.kernel.cavity.filling)
     }
 
-    /// The tetrahedra that the last insertion made.
-    pub(crate) fn filling(&self) -> &[TetId] {
-        &self.cavity.filling
+    // Removal.
+
+    /// Marks the tetrahedra in conflict with a point that is no vertex, and returns them.
+    pub(crate) fn dig_around(&mut self, p: DVec3) -> &[TetId] {
+        let start = self.kernel.locate(p);
+        self.kernel.dig(start, p);
+        &self.kernel.cavity.conflict
     }
 
-    /// Digs the tetrahedra in conflict with a point that is no vertex.
-    pub(crate) fn dig_around(&mut self, p: DVec3) {
-        let start = self.locate(p);
-        self.dig(start, p);
+    /// The tetrahedra that the last [`dig_around`](Self::dig_around) found.
+    pub(crate) fn dug(&self) -> &[TetId] {
+        &self.kernel.cavity.conflict
     }
 
-    /// Digs the tetrahedra at a vertex, of which `start` is one.
+    /// Whether the last [`dig_around`](Self::dig_around) found this one.
+    #[inline]
+    pub(crate) fn is_dug(&self, tet: TetId) -> bool {
+        self.kernel.marks[tet.index()] == Mark::InConflict
+    }
+
+    /// Makes the tetrahedra at a vertex, of which `start` is one, the hole.
     pub(crate) fn dig_star(&mut self, start: TetId, vertex: VertexId) {
-        let mut star = std::mem::take(&mut self.cavity.conflict);
-        let mut link = std::mem::take(&mut self.cavity.boundary);
-        star.clear();
+        let Self { kernel, hole, link } = self;
+        hole.clear();
         link.clear();
-        self.marks[start.index()] = Mark::InConflict;
-        star.push(start);
+        kernel.marks[start.index()] = Mark::InConflict;
+        hole.push(start);
         let mut next = 0;
-        while let Some(&tet) = star.get(next) {
+        while let Some(&tet) = hole.get(next) {
             next += 1;
-            let corners = self.tets[tet.index()];
-            for (i, outer) in self.twins[tet.index()].into_iter().enumerate() {
+            let corners = kernel.tets[tet.index()];
+            for (i, outer) in kernel.twins[tet.index()].into_iter().enumerate() {
+                let mark = &mut kernel.marks[outer.tet().index()];
                 if corners[i] == vertex {
-                    link.push(BoundaryFacet {
-                        corners: clockwise_infinity_last(facet_vertices(corners, i)),
+                    link.push(LinkFacet {
+                        corners: facet_vertices(corners, i),
                         outer,
                     });
-                } else if self.marks[outer.tet().index()] != Mark::InConflict {
-                    self.marks[outer.tet().index()] = Mark::InConflict;
-                    star.push(outer.tet());
+                } else if *mark != Mark::InConflict {
+                    *mark = Mark::InConflict;
+                    hole.push(outer.tet());
                 }
             }
         }
-        self.cavity.conflict = star;
-        self.cavity.boundary = link;
     }
 
-    /// The tetrahedra of the cavity, and the facets around it.
-    pub(crate) fn cavity(&self) -> (&[TetId], &[BoundaryFacet]) {
-        (&self.cavity.conflict, &self.cavity.boundary)
+    /// The facets around the hole.
+    pub(crate) fn link(&self) -> &[LinkFacet] {
+        &self.link
     }
 
-    /// Whether the tetrahedron is part of the cavity.
-    #[inline]
-    pub(crate) fn is_dug(&self, tet: TetId) -> bool {
-        self.marks[tet.index()] == Mark::InConflict
-    }
-
-    /// Leaves the tetrahedra of the cavity as they were.
-    pub(crate) fn undo_cavity(&mut self) {
-        let outside = self.cavity.boundary.iter().map(|facet| facet.outer.tet());
-        for tet in outside.chain(self.cavity.conflict.iter().copied()) {
-            self.marks[tet.index()] = Mark::Untested;
+    /// Leaves the tetrahedra of the hole as they were.
+    pub(crate) fn close_hole(&mut self) {
+        for tet in &self.hole {
+            self.kernel.marks[tet.index()] = Mark::Untested;
         }
     }
 
-    /// Removes the tetrahedra of the cavity; what fills it must follow.
-    pub(crate) fn vacate_cavity(&mut self) {
-        for tet in &self.cavity.conflict {
-            self.marks[tet.index()] = Mark::Vacant;
+    /// Removes the tetrahedra of the hole, for which `count` others are to come; refuses before anything has
+    /// changed if these are too many.
+    pub(crate) fn vacate_hole(&mut self, count: usize) -> Result<(), Error> {
+        self.check_room(self.hole.len(), count)?;
+        for tet in &self.hole {
+            self.kernel.marks[tet.index()] = Mark::Vacant;
         }
-        self.vacant.append(&mut self.cavity.conflict);
-    }
-
-    /// Whether `count` tetrahedra fit, those of the cavity out of the way.
-    pub(crate) fn check_room(&self, count: usize) -> Result<(), Error> {
-        let vacant = self.vacant.len() + self.cavity.conflict.len();
-        if count > vacant + (MOST_TETS - self.tets.len()) {
-            return Err(Error::TooMany {
-                of: "tetrahedra",
-                limit: MOST_TETS,
-            });
-        }
+        self.kernel.vacant.append(&mut self.hole);
         Ok(())
     }
 
     /// Adds a tetrahedron that is not joined to anything yet.
     pub(crate) fn place(&mut self, corners: [VertexId; 4]) -> Result<TetId, Error> {
-        let tet = self.allocate()?;
-        self.tets[tet.index()] = corners;
-        self.marks[tet.index()] = Mark::Untested;
-        self.recent = tet;
+        let tet = self.kernel.allocate()?;
+        self.kernel.tets[tet.index()] = corners;
+        self.kernel.marks[tet.index()] = Mark::Untested;
+        self.kernel.recent = tet;
         Ok(tet)
     }
 
     /// Makes `twin` the other side of `facet`, but not yet the reverse.
     #[inline]
     pub(crate) fn set_twin(&mut self, facet: FacetId, twin: FacetId) {
-        self.twins[facet.tet().index()][facet.corner()] = twin;
+        self.kernel.twins[facet.tet().index()][facet.corner()] = twin;
     }
 
     /// Makes two facets each other's other side.
@@ -237,5 +272,17 @@ impl Kernel {
     pub(crate) fn join(&mut self, one: FacetId, other: FacetId) {
         self.set_twin(one, other);
         self.set_twin(other, one);
+    }
+
+    /// Whether there is room for tetrahedra that come when others leave.
+    fn check_room(&self, leave: usize, come: usize) -> Result<(), Error> {
+        let unused = MOST_TETS - self.kernel.tets.len();
+        if come > self.kernel.vacant.len() + leave + unused {
+            return Err(Error::TooMany {
+                of: "tetrahedra",
+                limit: MOST_TETS,
+            });
+        }
+        Ok(())
     }
 }

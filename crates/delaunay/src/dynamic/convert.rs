@@ -61,13 +61,17 @@ impl DynamicTetrahedralization {
             vertex => inner(id(vertex)),
         };
         let tets = tetrahedralization.tets().iter().map(|tet| tet.map(named));
-        self.kernel
-            .load(tets.collect(), tetrahedralization.twins().to_vec());
-        self.flat = None;
-        self.fit_bounds();
-        for tet in (0..self.kernel.tet_slots()).map(TetId::new) {
-            self.register(tet);
+        let tets: Vec<[VertexId; 4]> = tets.collect();
+        for (t, tet) in tets.iter().enumerate() {
+            for &corner in tet.iter().filter(|&&corner| corner != INFINITE) {
+                self.incident[outer(corner).index()] = TetId::new(t);
+            }
         }
+        self.flat = None;
+        self.bounds = self.tight_bounds();
+        self.removals = 0;
+        let twins = tetrahedralization.twins().to_vec();
+        self.kernel.load(tets, twins, self.bounds);
     }
 
     /// The tetrahedralisation as it is now, over the points that are there, which replace the contents of
@@ -181,7 +185,7 @@ impl Connectivity for DynamicTetrahedralization {
 
     #[inline]
     fn position(&self, vertex: VertexId) -> DVec3 {
-        self.kernel.point_of(inner(vertex))
+        self.kernel.point(inner(vertex))
     }
 
     #[inline]

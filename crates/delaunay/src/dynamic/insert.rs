@@ -66,13 +66,17 @@ impl DynamicTetrahedralization {
             self.kernel.set_bounds(bounds);
         }
         self.take_slot(vertex, point);
-        if let Err(error) = self.kernel.insert_from(start, inner(vertex)) {
-            self.free_slot(vertex);
-            return Err(error);
+        match self.kernel.insert(start, inner(vertex)) {
+            Ok(filling) => {
+                self.filling.clear();
+                self.filling.extend_from_slice(filling);
+            }
+            Err(error) => {
+                self.free_slot(vertex);
+                return Err(error);
+            }
         }
-        for k in 0..self.kernel.filling().len() {
-            self.register(self.kernel.filling()[k]);
-        }
+        self.register();
         Ok(vertex)
     }
 

@@ -11,7 +11,7 @@ mod tests;
 
 use crate::{
     TetId,
-    build::{INFINITE, Kernel},
+    build::{INFINITE, Stepwise},
 };
 use flat::Flat;
 use pellicle_geometry::{Aabb, DVec3, VertexId};
@@ -53,7 +53,7 @@ use pellicle_geometry::{Aabb, DVec3, VertexId};
 pub struct DynamicTetrahedralization {
     /// The tetrahedra, and the points. A vertex of the kernel has the next higher id, since the kernel's 0
     /// is the vertex at infinity. The point of an id that is free is not a number.
-    kernel: Kernel,
+    kernel: Stepwise,
     /// By vertex, one tetrahedron at it, finite or not; `NONE` for free ids and while the points are flat.
     incident: Vec<TetId>,
     /// The ids that are free.
@@ -64,6 +64,8 @@ pub struct DynamicTetrahedralization {
     bounds: Aabb,
     /// How many removals ago `bounds` was a tight box.
     removals: usize,
+    /// The tetrahedra that the last step made.
+    filling: Vec<TetId>,
     /// Where the holes of removed vertices are tetrahedralised; its storage is kept.
     workplace: Box<remove::Workplace>,
 }
@@ -75,12 +77,13 @@ impl DynamicTetrahedralization {
     /// A tetrahedralisation without points.
     pub fn new() -> Self {
         Self {
-            kernel: Kernel::empty(),
+            kernel: Stepwise::new(),
             incident: Vec::new(),
             free: Vec::new(),
             flat: Some(Flat::default()),
             bounds: Aabb::EMPTY,
             removals: 0,
+            filling: Vec::new(),
             workplace: Box::default(),
         }
     }
@@ -97,7 +100,7 @@ impl DynamicTetrahedralization {
         if vertex.index() >= self.incident.len() {
             return None;
         }
-        let point = self.kernel.point_of(inner(vertex));
+        let point = self.kernel.point(inner(vertex));
         (!point.x.is_nan()).then_some(point)
     }
 
@@ -121,24 +124,22 @@ impl DynamicTetrahedralization {
     fn present(&self) -> impl Iterator<Item = (VertexId, DVec3)> + '_ {
         (0..self.incident.len())
             .map(VertexId::new)
-            .map(|vertex| (vertex, self.kernel.point_of(inner(vertex))))
+            .map(|vertex| (vertex, self.kernel.point(inner(vertex))))
             .filter(|(_, point)| !point.x.is_nan())
     }
 
-    /// Makes `bounds` tight and the filters with it.
-    fn fit_bounds(&mut self) {
-        let bounds = (self.present()).fold(Aabb::EMPTY, |bounds, (_, point)| bounds.with(point));
-        self.bounds = bounds;
-        self.removals = 0;
-        self.kernel.set_bounds(bounds);
+    /// The smallest box around all points.
+    fn tight_bounds(&self) -> Aabb {
+        (self.present()).fold(Aabb::EMPTY, |bounds, (_, point)| bounds.with(point))
     }
 
-    /// Records the tetrahedron at each of its corners.
-    #[inline]
-    fn register(&mut self, tet: TetId) {
-        for corner in self.kernel.corners(tet) {
-            if corner != INFINITE {
-                self.incident[outer(corner).index()] = tet;
+    /// Records the tetrahedra of `filling` at each of their corners.
+    fn register(&mut self) {
+        for &tet in &self.filling {
+            for corner in self.kernel.corners(tet) {
+                if corner != INFINITE {
+                    self.incident[outer(corner).index()] = tet;
+                }
             }
         }
     }

@@ -22,7 +22,8 @@
 use super::{DynamicTetrahedralization, inner};
 use crate::{
     Error, FacetId, TetId,
-    build::{BoundaryFacet, INFINITE, Kernel},
+    build::{INFINITE, Stepwise},
+    id::facet_vertices,
 };
 use pellicle_geometry::{Aabb, DVec3, VertexId};
 
@@ -32,26 +33,24 @@ type NamedFacet = ([VertexId; 3], FacetId);
 /// Storage that one removal leaves to the next.
 pub(super) struct Workplace {
     /// The tetrahedralisation of the link's vertices.
-    small: Kernel,
+    small: Stepwise,
     /// The vertices of the link, as the kernel names them, without infinity.
     link: Vec<VertexId>,
     points: Vec<DVec3>,
     /// By tetrahedron of `small` that fills the hole: where it stands in the whole.
     places: Vec<TetId>,
+    /// The open facets on both sides of the hole's boundary.
     facets: Vec<NamedFacet>,
-    /// The new tetrahedra.
-    filling: Vec<TetId>,
 }
 
 impl Default for Workplace {
     fn default() -> Self {
         Self {
-            small: Kernel::empty(),
+            small: Stepwise::new(),
             link: Vec::new(),
             points: Vec::new(),
             places: Vec::new(),
             facets: Vec::new(),
-            filling: Vec::new(),
         }
     }
 }
@@ -90,7 +89,9 @@ impl DynamicTetrahedralization {
         self.free_slot(vertex);
         self.removals += 1;
         if self.removals > self.vertex_count() && self.flat.is_none() {
-            self.fit_bounds();
+            self.removals = 0;
+            self.bounds = self.tight_bounds();
+            self.kernel.set_bounds(self.bounds);
         }
         Ok(point)
     }
@@ -98,145 +99,133 @@ impl DynamicTetrahedralization {
     /// Takes the tetrahedra at a vertex away and fills the hole.
     fn dig_out(&mut self, vertex: VertexId, p: DVec3) -> Result<(), Error> {
         // 1. The hole and the vertices around it.
-        let (kernel, work) = (&mut self.kernel, &mut *self.workplace);
+        let Self {
+            kernel,
+            workplace: work,
+            filling,
+            ..
+        } = self;
         kernel.dig_star(self.incident[vertex.index()], inner(vertex));
-        let (_, boundary) = kernel.cavity();
-        work.gather(kernel, boundary);
+        work.gather(kernel);
 
         // 2. Their tetrahedralisation; then what of it fills the hole.
         let bounds = Aabb::of_points(&work.points).with(p);
         let filled = match work.small.restart(&work.points, bounds) {
             Ok(order) => {
                 work.small.dig_around(p);
-                work.fill(kernel, &order)
+                work.fill(kernel, &order, filling)
             }
             Err(error @ Error::TooMany { .. }) => Err(error),
             // 3. They all lie in a plane.
-            Err(_) if is_all(boundary, kernel) => {
+            Err(_) if nothing_is_beyond(kernel) => {
                 self.fall_flat(vertex);
                 return Ok(());
             }
-            Err(_) => work.cap(kernel, inner(vertex)),
+            Err(_) => work.cap(kernel, filling),
         };
         if let Err(error) = filled {
-            kernel.undo_cavity();
+            kernel.close_hole();
             return Err(error);
         }
 
         // 4. The tetrahedra at the vertices around.
-        for k in 0..self.workplace.filling.len() {
-            self.register(self.workplace.filling[k]);
-        }
+        self.register();
         Ok(())
     }
 }
 
 /// Whether, of a hole whose vertices lie in a plane, nothing is on the other side of that plane: no points are
 /// left besides.
-fn is_all(boundary: &[BoundaryFacet], kernel: &Kernel) -> bool {
-    (boundary.iter())
-        .filter(|facet| facet.corners[2] != INFINITE)
-        .any(|facet| kernel.corners(facet.outer.tet())[3] == INFINITE)
+fn nothing_is_beyond(kernel: &Stepwise) -> bool {
+    let mut finite = kernel.link().iter().filter(|facet| facet.is_finite());
+    finite.any(|facet| kernel.corners(facet.outer.tet())[3] == INFINITE)
 }
 
 impl Workplace {
-    /// The vertices of the link and their points.
-    fn gather(&mut self, kernel: &Kernel, boundary: &[BoundaryFacet]) {
+    /// The facets and vertices of the link, and their points.
+    fn gather(&mut self, kernel: &Stepwise) {
+        let facets = kernel.link().iter();
+        self.facets.clear();
+        self.facets
+            .extend(facets.map(|facet| (sorted(facet.corners), facet.outer)));
         self.link.clear();
         self.link
-            .extend(boundary.iter().flat_map(|facet| facet.corners));
+            .extend(self.facets.iter().flat_map(|facet| facet.0));
         self.link.sort_unstable();
         self.link.dedup();
         self.link.retain(|&vertex| vertex != INFINITE);
         self.points.clear();
-        let points = self.link.iter().map(|&vertex| kernel.point_of(vertex));
-        self.points.extend(points);
+        self.points
+            .extend(self.link.iter().map(|&vertex| kernel.point(vertex)));
     }
 
-    /// Fills the hole with the tetrahedra of the small kernel's cavity.
-    fn fill(&mut self, kernel: &mut Kernel, order: &[u32]) -> Result<(), Error> {
-        let (conflict, small_boundary) = self.small.cavity();
-        kernel.check_room(conflict.len())?;
+    /// Fills the hole with the tetrahedra of the small kernel that are in conflict with the vertex.
+    fn fill(
+        &mut self,
+        kernel: &mut Stepwise,
+        order: &[u32],
+        filling: &mut Vec<TetId>,
+    ) -> Result<(), Error> {
+        let dug = self.small.dug();
         let whole = |vertex: VertexId| match vertex {
             INFINITE => INFINITE,
             vertex => self.link[order[vertex.index() - 1] as usize],
         };
-        self.facets.clear();
-        name_outer_facets(kernel, &mut self.facets);
 
         // 1. The tetrahedra.
-        kernel.vacate_cavity();
+        kernel.vacate_hole(dug.len())?;
         self.places.resize(self.small.tet_slots(), TetId::NONE);
-        self.filling.clear();
-        for &tet in conflict {
+        filling.clear();
+        for &tet in dug {
             let place = kernel.place(self.small.corners(tet).map(whole))?;
             self.places[tet.index()] = place;
-            self.filling.push(place);
+            filling.push(place);
         }
 
-        // 2. Joined to each other as in the small kernel.
+        // 2. Joined to each other as in the small kernel; what is open there has a facet of the link as its
+        // other side.
         let placed = |facet: FacetId| FacetId::of(self.places[facet.tet().index()], facet.corner());
-        for &tet in conflict {
+        for (&tet, &place) in dug.iter().zip(&*filling) {
             for corner in 0..4 {
-                let facet = FacetId::of(tet, corner);
-                let twin = self.small.twin(facet);
+                let twin = self.small.twin(FacetId::of(tet, corner));
+                let facet = FacetId::of(place, corner);
                 if self.small.is_dug(twin.tet()) {
-                    kernel.set_twin(placed(facet), placed(twin));
+                    kernel.set_twin(facet, placed(twin));
+                } else {
+                    self.facets.push(named(kernel, facet));
                 }
             }
-        }
-
-        // 3. Joined to what is around.
-        for facet in small_boundary {
-            let name = sorted(facet.corners.map(whole));
-            self.facets
-                .push((name, placed(self.small.twin(facet.outer))));
         }
         join_equal(kernel, &mut self.facets);
         Ok(())
     }
 
     /// Closes the hull over a hole whose vertices lie in a plane: in each finite tetrahedron of the hole,
-    /// infinity takes the place of the vertex.
-    fn cap(&mut self, kernel: &mut Kernel, vertex: VertexId) -> Result<(), Error> {
-        let (_, boundary) = kernel.cavity();
-        let caps: Vec<[VertexId; 3]> = (boundary.iter())
-            .map(|facet| facet.corners)
-            .filter(|corners| corners[2] != INFINITE)
-            .collect();
-        debug_assert!(caps.iter().flatten().all(|&corner| corner != vertex));
-        kernel.check_room(caps.len())?;
-        self.facets.clear();
-        name_outer_facets(kernel, &mut self.facets);
-        kernel.vacate_cavity();
-        self.filling.clear();
+    /// infinity takes the place of the vertex, which was beyond the facet on the same side.
+    fn cap(&mut self, kernel: &mut Stepwise, filling: &mut Vec<TetId>) -> Result<(), Error> {
+        let facets = kernel.link().iter().filter(|facet| facet.is_finite());
+        let caps: Vec<[VertexId; 3]> = facets.map(|facet| facet.corners).collect();
+        kernel.vacate_hole(caps.len())?;
+        filling.clear();
         for [a, b, c] in caps {
-            // (vertex, a, b, c) was positive, and (a, c, b, vertex) is an even permutation.
-            let corners = [a, c, b, INFINITE];
-            let tet = kernel.place(corners)?;
-            self.filling.push(tet);
-            for corner in 0..4 {
-                let facet = crate::id::facet_vertices(corners, corner);
-                self.facets.push((sorted(facet), FacetId::of(tet, corner)));
-            }
+            let tet = kernel.place([a, b, c, INFINITE])?;
+            filling.push(tet);
+            let facets = (0..4).map(|corner| named(kernel, FacetId::of(tet, corner)));
+            self.facets.extend(facets);
         }
         join_equal(kernel, &mut self.facets);
         Ok(())
     }
 }
 
-/// The facets around the hole, seen from outside.
-fn name_outer_facets(kernel: &Kernel, facets: &mut Vec<NamedFacet>) {
-    let (_, boundary) = kernel.cavity();
-    facets.extend(
-        boundary
-            .iter()
-            .map(|facet| (sorted(facet.corners), facet.outer)),
-    );
+/// A facet with its name.
+fn named(kernel: &Stepwise, facet: FacetId) -> NamedFacet {
+    let corners = facet_vertices(kernel.corners(facet.tet()), facet.corner());
+    (sorted(corners), facet)
 }
 
 /// Joins facets of equal names; each name is there twice.
-fn join_equal(kernel: &mut Kernel, facets: &mut [NamedFacet]) {
+fn join_equal(kernel: &mut Stepwise, facets: &mut [NamedFacet]) {
     facets.sort_unstable();
     for pair in facets.chunks_exact(2) {
         debug_assert_eq!(
