@@ -334,6 +334,38 @@ fn lattices_hold_their_largest_weights() {
     assert!(refused > 200_000, "{refused}");
 }
 
+/// Lifts on one hyperplane but for one unit, at heights where doubles begin to round: wider integers must have taken
+/// over.
+#[test]
+fn flat_lifts_of_every_height() {
+    let mut signs = 0;
+    for bits in 4..=40 {
+        let slope = f64::powi(2.0, bits) + 1.0;
+        for k in 0..2000_u32 {
+            let coordinate = |i: u32| f64::from(k.wrapping_mul(2 * i + 7919).rotate_left(i) % 511);
+            let points: Points = from_fn(|i| {
+                DVec3::from_array([0, 1, 2].map(|axis| coordinate(5 * axis + i as u32)))
+            });
+            let flat = points.map(|p| p.length_squared() - slope * (p.x - p.y + p.z));
+            for bend in [-1.0, 0.0, 1.0] {
+                let mut weights = flat;
+                weights[4] += bend;
+                // The query sinks below the hyperplane as its weight grows.
+                let [a, b, c, d, _] = points;
+                let expected = orient3d(a, b, c, d) * Sign::of(bend);
+                let sign = lattice::power_test(points, weights);
+                assert!(
+                    sign.is_none_or(|sign| sign == expected),
+                    "2^{bits} {points:?}"
+                );
+                assert_eq!(fixed::power_test(points, weights), Some(expected));
+                signs += u32::from(sign.is_some());
+            }
+        }
+    }
+    assert!(signs > 10_000, "{signs}");
+}
+
 /// Weight differences of just 150 bits and more, in squares of the coordinates' unit.
 #[test]
 fn fixed_width_holds_its_largest_weights() {
