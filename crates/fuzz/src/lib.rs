@@ -1,8 +1,11 @@
-//! Bytes, read as a file of some format: what the fuzz targets share.
+//! Bytes, read as a file of some format or as points: what the fuzz targets share.
 #![forbid(unsafe_code)]
+
+mod points;
 
 pub use pellicle_io::Format;
 use pellicle_io::{Data, ReadOptions, read_from};
+pub use points::{check_dynamic, check_tetrahedralize};
 use std::io::Cursor;
 
 /// Reads the bytes; an error is fine, a panic is not, and what is read must be sound.
