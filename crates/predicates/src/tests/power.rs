@@ -376,7 +376,12 @@ fn fixed_width_holds_its_largest_weights() {
             let side = f64::powi(2.0, bits) * (1.0 - f64::EPSILON);
             let mut points: Points = from_fn(|k| corner(i >> (3 * k) & 7) * side);
             points[4] = DVec3::new(0.0, side, 1.0);
-            for weight_bits in [140, 149, 150, 151, 190, 220] {
+            // About the query the determinants are larger still.
+            if i % 2 == 1 {
+                let around = |k: usize| (corner(i >> (3 * k) & 7) * 2.0 - 1.0) * side;
+                points = [around(0), around(1), around(2), around(3), DVec3::Z];
+            }
+            for weight_bits in [140, 149, 150, 151, 156, 190, 220] {
                 for turned in 0..32_u32 {
                     let weight = f64::powi(2.0, weight_bits) * (1.0 - f64::EPSILON);
                     let weights = from_fn(|k| if turned >> k & 1 == 1 { weight } else { 0.0 });
@@ -399,6 +404,13 @@ fn fixed_width_holds_its_largest_weights() {
                 }
             }
         }
+    }
+    // Weights that three limbs would take for small ones.
+    let points = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z, DVec3::splat(3.0)];
+    for bits in [189, 190, 191, 192] {
+        let weights =
+            [0.0, 0.0, 0.0, 0.0, 1.0].map(|w| w * (f64::powi(2.0, bits) + f64::powi(2.0, 140)));
+        assert_eq!(fixed::power_test(points, weights), None, "2^{bits}");
     }
     assert!(decided.iter().all(|&count| count > 50_000), "{decided:?}");
 }
