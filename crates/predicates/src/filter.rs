@@ -54,7 +54,9 @@ mod plane;
 pub use plane::StaticFilter2;
 
 use crate::{
-    Sign, determinant, lifted,
+    Sign, determinant,
+    lanes::{self, Registers},
+    lifted,
     statistics::{Predicate, Stage, decided},
 };
 use glam::{DVec2, DVec3};
@@ -259,6 +261,16 @@ pub struct StaticFilter {
     power_test: f64,
 }
 
+/// What [`StaticFilter::insphere_across`] is sure of: bit i of each set stands for neighbour i, and a bit that
+/// is in neither is undecided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FourVerdicts {
+    /// The neighbours that have the point inside their sphere.
+    pub inside: u8,
+    /// The neighbours that have it outside.
+    pub outside: u8,
+}
+
 impl StaticFilter {
     /// The filter for points inside the box from `min` to `max`.
     pub fn from_bounds(min: DVec3, max: DVec3) -> Self {
@@ -438,6 +450,24 @@ impl StaticFilter {
             }
             None => out_of_line::power_test_perturbed(a, b, c, d, e, weights),
         }
+    }
+
+    /// Which of the four neighbours of the positive tetrahedron `corners` have `p` inside their spheres, as
+    /// far as the static filter alone can say: four tests at once. Neighbour i shares all corners but
+    /// corner i, in whose place it has `opposite[i]`.
+    #[inline(always)]
+    pub fn insphere_across<R: Registers>(
+        &self,
+        registers: R,
+        corners: [DVec3; 4],
+        opposite: [DVec3; 4],
+        p: DVec3,
+    ) -> FourVerdicts {
+        self.check(&corners);
+        self.check(&opposite);
+        let (inside, outside) =
+            lanes::insphere_across(registers, corners, opposite, p, self.insphere);
+        FourVerdicts { inside, outside }
     }
 
     /// [`lifted::insphere`] for points inside the box.

@@ -59,13 +59,14 @@ mod polynomial;
 mod sign;
 
 pub mod implicit;
+pub mod lanes;
 pub mod lifted;
 pub mod sos;
 pub mod statistics;
 pub mod world;
 
 pub use distance::compare_distance;
-pub use filter::{StaticFilter, StaticFilter2};
+pub use filter::{FourVerdicts, StaticFilter, StaticFilter2};
 pub use sign::Sign;
 
 #[cfg(test)]

@@ -1,143 +1,227 @@
 //! The conflict region: dig it out, and fill it with tetrahedra around the new vertex.
 
 use super::{
+    cells::{AT_REST, KEPT, four},
     conflict::Query,
-    kernel::{INFINITE, Kernel, Mark},
+    kernel::Kernel,
+    worker::Worker,
 };
-use crate::{Error, FacetId, TetId, id::facet_vertices};
+use crate::{FacetId, TetId, id::FACET_CORNERS};
 use pellicle_geometry::VertexId;
+use pellicle_predicates::lanes::Registers;
 
 /// Up to this many vertices on a cavity's boundary, edges are paired through a table with a row and a
 /// column a vertex.
 const MOST_TABLED_VERTICES: usize = 256;
 
+/// Entries between the rows of the table: a little more than a row, so that rows do not share the same
+/// places of the cache.
+const ROW: usize = MOST_TABLED_VERTICES + 16;
+
 /// A facet between the conflict region and the rest.
 #[derive(Clone, Copy)]
-pub(super) struct BoundaryFacet {
-    /// Clockwise seen from the cavity, so that (new vertex, corners) is positive; infinity comes last.
+struct BoundaryFacet {
+    /// Clockwise seen from the cavity, so that (new vertex, corners) is positive.
     corners: [VertexId; 3],
     /// The facet seen from outside the cavity.
-    pub(super) outer: FacetId,
+    outer: FacetId,
+}
+
+impl BoundaryFacet {
+    const NONE: Self = Self {
+        corners: [VertexId::NONE; 3],
+        outer: FacetId::NONE,
+    };
 }
 
 /// Storage of the current conflict region, kept between insertions.
-#[derive(Default)]
 pub(super) struct Cavity {
-    pub(super) conflict: Vec<TetId>,
-    pub(super) boundary: Vec<BoundaryFacet>,
-    /// The tetrahedra that fill the cavity: one a boundary facet.
-    pub(super) filling: Vec<TetId>,
-    /// The vertices of the boundary.
-    vertices: Vec<VertexId>,
-    /// By vertex: where it stands in `vertices`, if `vertices` agrees.
-    rank: Vec<u32>,
+    /// The tetrahedra in conflict, and room for more.
+    conflict: Vec<TetId>,
+    conflict_count: usize,
+    /// The facets around them, and room for more.
+    boundary: Vec<BoundaryFacet>,
+    boundary_count: usize,
+    ranking: Ranking,
+    /// By boundary facet, its corners' ranks.
+    ranks: Vec<[u8; 4]>,
     /// The facet of the filling at the edge from one vertex (row) to another (column).
-    edges: Vec<FacetId>,
+    edges: Box<[FacetId; MOST_TABLED_VERTICES * ROW]>,
 }
 
 impl Cavity {
     pub(super) fn for_vertices(vertices: usize) -> Self {
         Self {
-            rank: vec![0; vertices],
-            edges: vec![FacetId::NONE; MOST_TABLED_VERTICES * MOST_TABLED_VERTICES],
-            ..Self::default()
+            conflict: Vec::new(),
+            conflict_count: 0,
+            boundary: Vec::new(),
+            boundary_count: 0,
+            ranking: Ranking::for_vertices(vertices),
+            ranks: Vec::new(),
+            edges: vec![FacetId::NONE; MOST_TABLED_VERTICES * ROW]
+                .try_into()
+                .expect("the vector has the length of the array"),
         }
     }
 
     /// Makes room for vertices up to this number.
-    pub(super) fn make_room(&mut self, vertices: usize) {
-        if self.rank.len() < vertices {
-            self.rank.resize(vertices, 0);
+    pub(super) fn make_room_for_vertices(&mut self, vertices: usize) {
+        let rank = &mut self.ranking.rank;
+        rank.resize(vertices.max(rank.len()), 0);
+    }
+
+    /// Forgets the last conflict region.
+    fn clear(&mut self) {
+        self.conflict_count = 0;
+        self.boundary_count = 0;
+    }
+
+    /// The tetrahedra in conflict; after they were replaced, those in their place.
+    pub(super) fn conflict(&self) -> &[TetId] {
+        &self.conflict[..self.conflict_count]
+    }
+
+    fn push_conflict(&mut self, tet: TetId) {
+        self.make_room();
+        self.conflict[self.conflict_count] = tet;
+        self.conflict_count += 1;
+    }
+
+    /// How many tetrahedra the filling has more than the conflict region.
+    #[inline(always)]
+    pub(super) fn growth(&self) -> usize {
+        self.boundary_count.saturating_sub(self.conflict_count)
+    }
+
+    /// Room for four more of each kind.
+    #[inline(always)]
+    fn make_room(&mut self) {
+        if self.conflict_count + 4 > self.conflict.len()
+            || self.boundary_count + 4 > self.boundary.len()
+        {
+            self.make_more_room();
         }
     }
 
-    /// The rank of a boundary vertex, the next free one if it is new.
-    #[inline]
-    fn rank_of(&mut self, vertex: VertexId) -> usize {
-        let rank = self.rank[vertex.index()] as usize;
-        if self.vertices.get(rank) == Some(&vertex) {
-            return rank;
-        }
-        self.rank[vertex.index()] = self.vertices.len() as u32;
-        self.vertices.push(vertex);
-        self.vertices.len() - 1
+    #[cold]
+    fn make_more_room(&mut self) {
+        let conflict = 2 * self.conflict.len() + 64;
+        self.conflict.resize(conflict, TetId::NONE);
+        let boundary = 2 * self.boundary.len() + 64;
+        self.boundary.resize(boundary, BoundaryFacet::NONE);
     }
 }
 
-impl Kernel {
-    /// Finds all tetrahedra in conflict with `p`, breadth first from `start`, and the facets around them.
-    /// The conflict region is connected and star-shaped around `p`: the signs are exact.
-    #[inline(never)]
-    pub(super) fn dig(&mut self, start: TetId, p: impl Query) {
-        // Out of `self`, so that the conflict test may borrow it.
-        let mut conflict = std::mem::take(&mut self.cavity.conflict);
-        let mut boundary = std::mem::take(&mut self.cavity.boundary);
-        conflict.clear();
-        boundary.clear();
-
-        debug_assert!(self.is_in_conflict(start, p));
-        self.marks[start.index()] = Mark::InConflict;
-        conflict.push(start);
+impl Worker {
+    /// Finds all tetrahedra in conflict with a point, breadth first from `start`, and the facets around them;
+    /// marks them. The conflict region is connected and star-shaped around it: the signs are exact.
+    ///
+    /// False when another worker is in the way; then what is marked must be released.
+    ///
+    /// Whether a neighbour is in conflict is as good as random, so the inner loop has no branch on it: it
+    /// writes what may be needed, and counts what is.
+    #[inline(always)]
+    pub(super) fn dig<const SHARED: bool, R: Registers>(
+        &mut self,
+        registers: R,
+        kernel: &Kernel,
+        start: TetId,
+        query: impl Query,
+    ) -> bool {
+        let cells = &kernel.cells;
+        let mine = self.mark;
+        let cavity = &mut self.cavity;
+        cavity.clear();
+        cavity.push_conflict(start);
         let mut next = 0;
-        while let Some(&tet) = conflict.get(next) {
+        while next < cavity.conflict_count {
+            let tet = cavity.conflict[next];
             next += 1;
-            let corners = self.tets[tet.index()];
-            let twins = self.twins[tet.index()];
-            for (i, outer) in twins.into_iter().enumerate() {
-                let neighbor = outer.tet();
-                let mark = self.marks[neighbor.index()];
-                if mark == Mark::InConflict {
-                    continue;
-                }
-                if mark == Mark::Untested {
-                    if self.is_in_conflict(neighbor, p) {
-                        self.marks[neighbor.index()] = Mark::InConflict;
-                        conflict.push(neighbor);
-                        continue;
-                    }
-                    self.marks[neighbor.index()] = Mark::Free;
-                }
-                boundary.push(BoundaryFacet {
-                    corners: clockwise_infinity_last(facet_vertices(corners, i)),
-                    outer,
+            let corners = cells.corners(tet);
+            let twins = cells.twins(tet);
+            let marks = four(|i| cells.mark(twins[i].tet()));
+            let [a, b, c, d] = four(|i| u8::from(marks[i] != mine) << i);
+            let untested = a | b | c | d;
+            if untested == 0 {
+                continue;
+            }
+            if SHARED {
+                // Whoever replaces a neighbour renews our twin before the mark goes.
+                let [a, b, c, d] = four(|i| {
+                    marks[i] != mine
+                        && (marks[i] != AT_REST || cells.twin(FacetId::of(tet, i)) != twins[i])
                 });
+                if a | b | c | d {
+                    return false;
+                }
+            }
+            let inside = kernel.are_in_conflict(registers, corners, twins, untested, query);
+            let outside = untested & !inside;
+            cavity.make_room();
+            let is_claimed = four(|i| {
+                let [a, b, c] = FACET_CORNERS[i];
+                cavity.boundary[cavity.boundary_count] = BoundaryFacet {
+                    corners: [corners[b], corners[a], corners[c]],
+                    outer: twins[i],
+                };
+                cavity.boundary_count += usize::from(outside >> i & 1);
+                let neighbor = twins[i].tet();
+                if !SHARED {
+                    let mark = if inside >> i & 1 == 1 { mine } else { marks[i] };
+                    cells.set_mark(neighbor, mark);
+                } else if inside >> i & 1 == 1 && !cells.claim(neighbor, mine) {
+                    return false;
+                }
+                cavity.conflict[cavity.conflict_count] = neighbor;
+                cavity.conflict_count += usize::from(inside >> i & 1);
+                true
+            });
+            if SHARED && is_claimed != [true; 4] {
+                return false;
             }
         }
-        self.cavity.conflict = conflict;
-        self.cavity.boundary = boundary;
+        true
     }
 
-    /// Fills the cavity with a tetrahedron from `vertex` to each boundary facet.
-    #[inline(never)]
-    pub(super) fn retriangulate(&mut self, vertex: VertexId) -> Result<(), Error> {
-        let mut cavity = std::mem::take(&mut self.cavity);
-        self.vacant.append(&mut cavity.conflict);
-
-        // 1. One tetrahedron a boundary facet, joined to the outside.
-        cavity.filling.clear();
-        for facet in &cavity.boundary {
-            let tet = self.allocate()?;
-            let [a, b, c] = facet.corners;
-            self.tets[tet.index()] = [vertex, a, b, c];
-            self.marks[tet.index()] = Mark::Untested;
-            self.twins[tet.index()][0] = facet.outer;
-            self.twins[facet.outer.tet().index()][facet.outer.corner()] = FacetId::of(tet, 0);
-            self.marks[facet.outer.tet().index()] = Mark::Untested;
-            cavity.filling.push(tet);
+    /// Gives the conflict region back as it was.
+    #[cold]
+    pub(super) fn release(&mut self, kernel: &Kernel) {
+        for &tet in self.cavity.conflict() {
+            kernel.cells.set_mark(tet, AT_REST);
         }
+    }
 
-        // 2. Joined to each other along the edges of the boundary, a sphere with F / 2 + 2 vertices.
-        let vertices = cavity.boundary.len() / 2 + 2;
-        if vertices <= MOST_TABLED_VERTICES {
-            self.join_through_table(&mut cavity, vertices);
+    /// Fills the cavity with a tetrahedron from `vertex` to each boundary facet. The slots of the conflict
+    /// region are taken first, then those that were reserved.
+    #[inline(always)]
+    pub(super) fn retriangulate(&mut self, kernel: &Kernel, vertex: VertexId) {
+        let cavity = &mut self.cavity;
+        while cavity.conflict_count > cavity.boundary_count {
+            cavity.conflict_count -= 1;
+            let tet = cavity.conflict[cavity.conflict_count];
+            kernel.cells.set_mark(tet, KEPT);
+            self.kept.push(tet);
+        }
+        while cavity.conflict_count < cavity.boundary_count {
+            let tet = self.kept.pop().expect("slots were reserved");
+            kernel.cells.set_mark(tet, self.mark);
+            cavity.push_conflict(tet);
+        }
+        // The boundary is a sphere with F facets and F / 2 + 2 vertices.
+        if cavity.boundary_count / 2 + 2 <= MOST_TABLED_VERTICES {
+            cavity.join_through_table(kernel, vertex);
         } else {
-            self.join_through_sorting(&cavity);
+            cavity.join_through_sorting(kernel, vertex);
         }
-        self.recent = cavity.filling[0];
-        self.cavity = cavity;
-        Ok(())
+        // Only now may others come.
+        for &tet in cavity.conflict() {
+            kernel.cells.set_mark(tet, AT_REST);
+        }
+        self.recent = cavity.conflict[0];
     }
+}
 
+impl Cavity {
     /// Facet 1 of a filling tetrahedron (v, a, b, c) holds the edge from b to c, and the neighbour there
     /// holds the edge from c to b:
     ///
@@ -147,32 +231,55 @@ impl Kernel {
     ///       /   \       facet 2 (opposite b): c → a
     ///      b ——→ c      facet 3 (opposite c): a → b
     /// ```
-    #[inline(never)]
-    fn join_through_table(&mut self, cavity: &mut Cavity, vertices: usize) {
-        cavity.vertices.clear();
-        for k in 0..cavity.boundary.len() {
-            let [a, b, c] = cavity.boundary[k].corners.map(|v| cavity.rank_of(v));
-            let tet = cavity.filling[k];
-            cavity.edges[b * vertices + c] = FacetId::of(tet, 1);
-            cavity.edges[c * vertices + a] = FacetId::of(tet, 2);
-            cavity.edges[a * vertices + b] = FacetId::of(tet, 3);
+    #[inline(always)]
+    fn join_through_table(&mut self, kernel: &Kernel, vertex: VertexId) {
+        self.ranking.clear();
+        let count = self.boundary_count;
+        if self.ranks.len() < count {
+            self.ranks.resize(self.boundary.len(), [0; 4]);
         }
-        debug_assert_eq!(cavity.vertices.len(), vertices);
-        for (facet, tet) in cavity.boundary.iter().zip(&cavity.filling) {
-            let [a, b, c] = facet.corners.map(|v| cavity.rank[v.index()] as usize);
-            let twins = &mut self.twins[tet.index()];
-            twins[1] = cavity.edges[c * vertices + b];
-            twins[2] = cavity.edges[a * vertices + c];
-            twins[3] = cavity.edges[b * vertices + a];
+        let edges = &mut *self.edges;
+        let edge = |from: u8, to: u8| usize::from(from) * ROW + usize::from(to);
+        let boundary = &mut self.boundary[..count];
+        let filling = &self.conflict[..count];
+        let ranks = &mut self.ranks[..count];
+        for ((facet, &tet), ranks) in boundary.iter_mut().zip(filling).zip(&mut *ranks) {
+            facet.corners = least_last(facet.corners);
+            let [a, b, c] = facet.corners;
+            let a = self.ranking.rank_of(a);
+            let b = self.ranking.rank_of(b);
+            let c = self.ranking.rank_of(c);
+            *ranks = [a, b, c, 0];
+            edges[edge(b, c)] = FacetId::of(tet, 1);
+            edges[edge(c, a)] = FacetId::of(tet, 2);
+            edges[edge(a, b)] = FacetId::of(tet, 3);
+        }
+        debug_assert_eq!(self.ranking.count, count / 2 + 2);
+        for ((facet, &tet), &[a, b, c, _]) in boundary.iter().zip(filling).zip(&*ranks) {
+            let [x, y, z] = facet.corners;
+            kernel.cells.set(
+                tet,
+                [vertex, x, y, z],
+                [
+                    facet.outer,
+                    edges[edge(c, b)],
+                    edges[edge(a, c)],
+                    edges[edge(b, a)],
+                ],
+            );
+            kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
         }
     }
 
     /// The same for cavities with many vertices: equal edges meet in a sorted list.
     #[cold]
-    fn join_through_sorting(&mut self, cavity: &Cavity) {
-        let mut edges = Vec::with_capacity(3 * cavity.boundary.len());
-        for (facet, &tet) in cavity.boundary.iter().zip(&cavity.filling) {
-            let [a, b, c] = facet.corners;
+    fn join_through_sorting(&mut self, kernel: &Kernel, vertex: VertexId) {
+        let boundary = &self.boundary[..self.boundary_count];
+        let mut edges = Vec::with_capacity(3 * boundary.len());
+        for (facet, &tet) in boundary.iter().zip(&self.conflict) {
+            let [a, b, c] = least_last(facet.corners);
+            kernel.cells.set(tet, [vertex, a, b, c], [facet.outer; 4]);
+            kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
             for (from, to, corner) in [(b, c, 1), (c, a, 2), (a, b, 3)] {
                 edges.push((from.min(to), from.max(to), FacetId::of(tet, corner)));
             }
@@ -181,21 +288,63 @@ impl Kernel {
         for pair in edges.chunks_exact(2) {
             let (one, other) = (pair[0].2, pair[1].2);
             debug_assert_eq!((pair[0].0, pair[0].1), (pair[1].0, pair[1].1));
-            self.twins[one.tet().index()][one.corner()] = other;
-            self.twins[other.tet().index()][other.corner()] = one;
+            kernel.cells.set_twin(one, other);
+            kernel.cells.set_twin(other, one);
         }
     }
 }
 
-/// Turns a facet that is counter-clockwise seen from inside around, with the vertex at infinity, if it is
-/// one of them, last.
-#[inline]
-fn clockwise_infinity_last([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
-    if a == INFINITE {
-        [c, b, a]
-    } else if b == INFINITE {
-        [a, c, b]
-    } else {
-        [b, a, c]
+/// Numbers the vertices of a cavity's boundary from 0.
+struct Ranking {
+    /// By vertex: its rank, if `vertices` agrees.
+    rank: Vec<u8>,
+    /// By rank.
+    vertices: Box<[VertexId; MOST_TABLED_VERTICES]>,
+    count: usize,
+}
+
+impl Ranking {
+    fn for_vertices(vertices: usize) -> Self {
+        Self {
+            rank: vec![0; vertices],
+            vertices: Box::new([VertexId::NONE; MOST_TABLED_VERTICES]),
+            count: 0,
+        }
     }
+
+    #[inline(always)]
+    fn clear(&mut self) {
+        self.count = 0;
+    }
+
+    /// Without a branch: which vertices are new is as good as random.
+    #[inline(always)]
+    fn rank_of(&mut self, vertex: VertexId) -> u8 {
+        let slot = &mut self.rank[vertex.index()];
+        let rank = *slot;
+        let is_known =
+            (self.vertices[usize::from(rank)] == vertex) & (usize::from(rank) < self.count);
+        let rank = if is_known { rank } else { self.count as u8 };
+        *slot = rank;
+        self.vertices[usize::from(rank)] = vertex;
+        self.count += usize::from(!is_known);
+        rank
+    }
+}
+
+/// Turns a triangle so that its least vertex, that at infinity if it is there, comes last.
+#[inline(always)]
+fn least_last([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
+    let is_a = (a < b) & (a < c);
+    let is_b = (b < a) & (b < c);
+    let pick = |if_a, if_b, otherwise| {
+        if is_a {
+            if_a
+        } else if is_b {
+            if_b
+        } else {
+            otherwise
+        }
+    };
+    [pick(b, c, a), pick(c, a, b), pick(a, b, c)]
 }

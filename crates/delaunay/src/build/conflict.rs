@@ -1,10 +1,13 @@
 //! The conflict test: the only place that knows of infinity and of ties.
 
-use super::kernel::{INFINITE, Kernel};
-use crate::TetId;
+use super::{
+    cells::four,
+    kernel::{INFINITE, Kernel},
+};
+use crate::{FacetId, TetId};
 use glam::DVec3;
 use pellicle_geometry::VertexId;
-use pellicle_predicates::Sign;
+use pellicle_predicates::{FourVerdicts, Sign, lanes::Registers};
 
 /// A point that asks which tetrahedra it is in conflict with: a [`DVec3`], or one with a weight.
 pub(super) trait Query: Copy {
@@ -14,6 +17,16 @@ pub(super) trait Query: Copy {
     /// by the perturbation in the lifted dimension (Devillers and Teillaud 2011). For a point in the plane of
     /// three of the corners the fourth one must have no say.
     fn is_inside(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool;
+
+    /// Of the four neighbours of a finite tetrahedron, which have the fourth vertices `opposite`: what a
+    /// filter can say at once.
+    fn is_inside_across<R: Registers>(
+        self,
+        registers: R,
+        kernel: &Kernel,
+        corners: [VertexId; 4],
+        opposite: [VertexId; 4],
+    ) -> FourVerdicts;
 }
 
 impl Query for DVec3 {
@@ -28,38 +41,99 @@ impl Query for DVec3 {
         let [c, d] = [kernel.point(c), kernel.point(d)];
         kernel.filter.insphere_perturbed(a, b, c, d, self) == Sign::Positive
     }
+
+    #[inline(always)]
+    fn is_inside_across<R: Registers>(
+        self,
+        registers: R,
+        kernel: &Kernel,
+        corners: [VertexId; 4],
+        opposite: [VertexId; 4],
+    ) -> FourVerdicts {
+        let corners = four(|i| kernel.point(corners[i]));
+        let opposite = four(|i| kernel.point(opposite[i]));
+        let filter = &kernel.filter;
+        filter.insphere_across(registers, corners, opposite, self)
+    }
 }
 
 impl Kernel {
     /// Whether the point lies inside the sphere of `tet`.
-    #[inline(always)]
+    #[inline]
     pub(super) fn is_in_conflict(&self, tet: TetId, query: impl Query) -> bool {
-        let corners = self.tets[tet.index()];
+        let corners = self.cells.corners(tet);
         if corners[3] == INFINITE {
-            return self.is_infinite_in_conflict(tet, query);
+            return self.is_infinite_in_conflict(tet, corners, query);
         }
         query.is_inside(self, corners)
     }
 
+    /// [`is_in_conflict`](Self::is_in_conflict) of those neighbours of a tetrahedron that `asked` names, bit
+    /// i the one opposite corner i.
+    #[inline(always)]
+    pub(super) fn are_in_conflict<R: Registers>(
+        &self,
+        registers: R,
+        corners: [VertexId; 4],
+        twins: [FacetId; 4],
+        asked: u8,
+        query: impl Query,
+    ) -> u8 {
+        let (mut inside, mut undecided) = (0, asked);
+        if corners[3] != INFINITE {
+            let opposite = four(|i| self.cells.opposite(twins[i]));
+            let [a, b, c, d] = four(|i| u8::from(opposite[i] == INFINITE) << i);
+            let infinite = a | b | c | d;
+            let verdicts = query.is_inside_across(registers, self, corners, opposite);
+            inside = verdicts.inside & asked & !infinite;
+            undecided = asked & (infinite | !(verdicts.inside | verdicts.outside));
+        }
+        while undecided != 0 {
+            let i = undecided.trailing_zeros();
+            undecided &= undecided - 1;
+            inside |= u8::from(self.is_in_conflict(twins[i as usize].tet(), query)) << i;
+        }
+        inside
+    }
+
     /// The sphere of an infinite tetrahedron is the half-space beyond its hull facet, and of the facet's
     /// plane the part inside the circumcircle of the facet.
-    ///
-    /// In that plane the finite tetrahedron behind the facet decides: its sphere cuts the plane in the
-    /// circumcircle, and its fourth corner has no say in the perturbation, the other four points being
-    /// coplanar.
-    fn is_infinite_in_conflict(&self, tet: TetId, query: impl Query) -> bool {
-        let [a, b, c, _] = self.tets[tet.index()];
-        let [a, b, c] = [a, b, c].map(|v| self.point(v));
-        match self.filter.orient3d(a, b, c, query.position()) {
+    fn is_infinite_in_conflict(
+        &self,
+        tet: TetId,
+        [a, b, c, _]: [VertexId; 4],
+        query: impl Query,
+    ) -> bool {
+        let facet = (self.point(a), self.point(b), self.point(c));
+        let side = |p: DVec3| self.filter.orient3d(facet.0, facet.1, facet.2, p);
+        match side(query.position()) {
             Sign::Positive => true,
             Sign::Negative => false,
-            Sign::Zero => self.is_in_conflict_behind(tet, query),
+            Sign::Zero => {
+                let behind = self.spanning.and_then(|spanning| {
+                    let mut points = spanning.into_iter();
+                    points.find(|&d| side(self.point(d)) == Sign::Negative)
+                });
+                self.is_in_conflict_in_plane(tet, [a, b, c], behind, query)
+            }
         }
     }
 
+    /// In the plane of a hull facet any tetrahedron of the facet and a point behind it decides, for instance
+    /// the one that is there: its sphere cuts the plane in the circumcircle, and its fourth corner has no say
+    /// in the perturbation, the other four points being coplanar.
     #[cold]
-    fn is_in_conflict_behind(&self, infinite: TetId, query: impl Query) -> bool {
-        let finite = self.twins[infinite.index()][3].tet();
-        query.is_inside(self, self.tets[finite.index()])
+    fn is_in_conflict_in_plane(
+        &self,
+        infinite: TetId,
+        [a, b, c]: [VertexId; 3],
+        behind: Option<VertexId>,
+        query: impl Query,
+    ) -> bool {
+        let corners = match behind {
+            Some(d) => [b, a, c, d],
+            None => self.cells.corners(self.cells.twins(infinite)[3].tet()),
+        };
+        query.is_inside(self, corners)
     }
 }

@@ -1,102 +1,178 @@
 //! From the kernel's arrays to the caller's vertices.
 
-use super::kernel::{INFINITE, Kernel, Mark};
-use crate::{FacetId, TetId, Tetrahedralization};
+use super::kernel::{INFINITE, Kernel};
+use crate::{FacetId, TetId, Tetrahedralization, id::facet_vertices};
 use glam::DVec3;
 use pellicle_geometry::VertexId;
 
 impl Kernel {
-    /// Closes the gaps, puts the finite tetrahedra first, and names the caller's vertices.
+    /// Puts the tetrahedra into an order that does not depend on how they came to be, and names the
+    /// caller's vertices.
+    ///
+    /// The order: by the vertex that comes last in the order of insertion, then by the other corners;
+    /// infinite ones after all others.
     pub(super) fn finish<'a>(
-        mut self,
+        self,
         points: &'a [DVec3],
         order: &[u32],
         duplicates: Vec<(VertexId, VertexId)>,
     ) -> Tetrahedralization<'a> {
-        self.points = Vec::new();
-        self.cavity = Default::default();
-        self.close_gaps();
-        self.marks = Vec::new();
-        let finite = self.finite_first();
-        for tet in &mut self.tets {
-            for vertex in tet {
-                *vertex = match *vertex {
-                    INFINITE => Tetrahedralization::INFINITE,
-                    vertex => VertexId(order[vertex.index() - 1]),
-                };
-            }
-        }
-        self.tets.shrink_to_fit();
-        self.twins.shrink_to_fit();
-        Tetrahedralization::from_arrays(points, self.tets, self.twins, finite, duplicates)
-    }
-
-    /// Moves the last tetrahedra into the vacant slots.
-    fn close_gaps(&mut self) {
-        for &slot in &self.vacant {
-            self.marks[slot.index()] = Mark::Vacant;
-        }
-        self.vacant.sort_unstable();
-        for slot in std::mem::take(&mut self.vacant) {
-            while self.marks.last() == Some(&Mark::Vacant) {
-                self.pop();
-            }
-            let last = self.tets.len().saturating_sub(1);
-            if slot.index() >= last {
-                continue;
-            }
-            self.tets[slot.index()] = self.tets[last];
-            self.twins[slot.index()] = self.twins[last];
-            self.marks[slot.index()] = self.marks[last];
-            self.tell_neighbors(slot);
-            self.pop();
-        }
-    }
-
-    fn pop(&mut self) {
-        self.tets.pop();
-        self.twins.pop();
-        self.marks.pop();
-    }
-
-    /// Swaps infinite tetrahedra to the end and returns how many are finite.
-    fn finite_first(&mut self) -> usize {
-        let is_finite = |tet: &[VertexId; 4]| tet[3] != INFINITE;
-        let (mut front, mut back) = (0, self.tets.len());
-        loop {
-            while front < back && is_finite(&self.tets[front]) {
-                front += 1;
-            }
-            while front < back && !is_finite(&self.tets[back - 1]) {
-                back -= 1;
-            }
-            if front == back {
-                return front;
-            }
-            self.swap(TetId::new(front), TetId::new(back - 1));
-        }
-    }
-
-    fn swap(&mut self, one: TetId, other: TetId) {
-        // Where the two are neighbours, each must first name the other's new place.
-        let renamed = |facet: FacetId| match facet.tet() {
-            tet if tet == one => FacetId::of(other, facet.corner()),
-            tet if tet == other => FacetId::of(one, facet.corner()),
-            _ => facet,
+        let vertices = self.points.len();
+        let cells = self.cells;
+        drop(self.points);
+        let (mut tets, mut twins, in_use) = cells.into_plain();
+        latest_first(&mut tets, &mut twins, &in_use);
+        let places = places(&tets, &in_use, vertices);
+        drop(in_use);
+        let caller = |vertex| match vertex {
+            INFINITE => Tetrahedralization::INFINITE,
+            VertexId(vertex) => VertexId(order[vertex as usize - 1]),
         };
-        let twins_of_one = self.twins[one.index()].map(renamed);
-        let twins_of_other = self.twins[other.index()].map(renamed);
-        self.twins[one.index()] = twins_of_other;
-        self.twins[other.index()] = twins_of_one;
-        self.tets.swap(one.index(), other.index());
-        self.tell_neighbors(one);
-        self.tell_neighbors(other);
+        let moved =
+            |twin: FacetId| FacetId::of(TetId(places.of[twin.tet().index()]), twin.corner());
+        let (tets, twins) = rayon::join(
+            || places.apply(tets, |tet| tet.map(caller)),
+            || places.apply(twins, |twins| twins.map(moved)),
+        );
+        let finite = places.finite;
+        drop(places);
+        Tetrahedralization::from_arrays(points, tets, twins, finite, duplicates)
     }
+}
 
-    /// Makes the twins of `tet`'s facets name it.
-    fn tell_neighbors(&mut self, tet: TetId) {
-        for (corner, twin) in self.twins[tet.index()].into_iter().enumerate() {
-            self.twins[twin.tet().index()][twin.corner()] = FacetId::of(tet, corner);
+/// Turns the tetrahedra such that the corner inserted last comes first and the least one last. Those that
+/// one thread made are so already.
+fn latest_first(tets: &mut [[VertexId; 4]], twins: &mut [[FacetId; 4]], in_use: &[bool]) {
+    for t in 0..tets.len() {
+        let [a, b, c, d] = tets[t];
+        if !in_use[t] || (a > b && a > c && d < b && d < c) {
+            continue;
         }
+        let latest = (0..4).max_by_key(|&i| tets[t][i]).unwrap_or(0);
+        let mut turned = [0; 4];
+        turned[0] = latest;
+        // (corner, facet opposite it) is odd, so the facet is turned around.
+        let [x, y, z] = facet_vertices([0, 1, 2, 3].map(VertexId), latest);
+        let [x, y, z] = [y.index(), x.index(), z.index()];
+        let least = [x, y, z].into_iter().min_by_key(|&i| tets[t][i]);
+        let facet = if least == Some(x) {
+            [y, z, x]
+        } else if least == Some(y) {
+            [z, x, y]
+        } else {
+            [x, y, z]
+        };
+        turned[1..].copy_from_slice(&facet);
+        let (tet, mut around) = (tets[t], twins[t]);
+        // Twins within the tetrahedron itself do not occur, so one after the other may be told.
+        around = turned.map(|i| around[i]);
+        tets[t] = turned.map(|i| tet[i]);
+        twins[t] = around;
+        for (corner, twin) in around.into_iter().enumerate() {
+            twins[twin.tet().index()][twin.corner()] = FacetId::of(TetId::new(t), corner);
+        }
+    }
+}
+
+/// By slot the tetrahedron's place in the result; [`NOWHERE`] for slots not in use.
+struct Places {
+    of: Vec<u32>,
+    /// How many places are finite tetrahedra'.
+    finite: usize,
+    /// How many places there are.
+    used: usize,
+}
+
+const NOWHERE: u32 = u32::MAX;
+
+fn places(tets: &[[VertexId; 4]], in_use: &[bool], vertices: usize) -> Places {
+    // 1. By latest vertex, the list of its finite tetrahedra: the last one here, the one before in `of`.
+    let mut last = vec![NOWHERE; vertices];
+    let mut of = vec![NOWHERE; tets.len()];
+    let mut infinite: Vec<u32> = Vec::new();
+    for (t, (tet, &in_use)) in tets.iter().zip(in_use).enumerate() {
+        if !in_use {
+            continue;
+        }
+        if tet[3] == INFINITE {
+            infinite.push(t as u32);
+        } else {
+            of[t] = std::mem::replace(&mut last[tet[0].index()], t as u32);
+        }
+    }
+    // 2. Each list in order, and in place of the list the places. Of two tetrahedra with the same latest
+    //    and least corners no two have the same second one: they would share a facet and lie on the same
+    //    side of it.
+    let mut used = 0;
+    let mut list: Vec<(u64, u32)> = Vec::new();
+    for mut t in last {
+        while t != NOWHERE {
+            let [_, second, _, least] = tets[t as usize];
+            list.push((u64::from(least.0) << 32 | u64::from(second.0), t));
+            t = of[t as usize];
+        }
+        list.sort_unstable();
+        for (_, t) in list.drain(..) {
+            of[t as usize] = used;
+            used += 1;
+        }
+    }
+    let finite = used as usize;
+    infinite.sort_unstable_by_key(|&t| tets[t as usize]);
+    for t in infinite {
+        of[t as usize] = used;
+        used += 1;
+    }
+    Places {
+        of,
+        finite,
+        used: used as usize,
+    }
+}
+
+impl Places {
+    /// Moves each item to its place, changed by `renamed`, and drops those of slots not in use.
+    ///
+    /// Slots and places run about alike, so items move little. Block by block the old items are read, and
+    /// written at once where the old ones have been read already; those that go further on wait in blocks
+    /// of their own, of which there are few at a time. Infinite ones, which all go to the end, would fill
+    /// such blocks sparsely; they wait in a list.
+    fn apply<T: Copy>(&self, mut items: Vec<T>, renamed: impl Fn(T) -> T) -> Vec<T> {
+        const BLOCK: usize = 1024;
+        let blocks = items.len().div_ceil(BLOCK);
+        let mut waiting: Vec<Vec<T>> = (0..blocks).map(|_| Vec::new()).collect();
+        let mut last: Vec<(u32, T)> = Vec::new();
+        let mut old: Vec<T> = Vec::with_capacity(BLOCK);
+        for block in 0..blocks {
+            let start = block * BLOCK;
+            let end = (start + BLOCK).min(items.len());
+            old.clear();
+            old.extend_from_slice(&items[start..end]);
+            let arrived = std::mem::take(&mut waiting[block]);
+            items[start..start + arrived.len()].copy_from_slice(&arrived);
+            for (&item, &place) in old.iter().zip(&self.of[start..end]) {
+                if place == NOWHERE {
+                    continue;
+                }
+                let (at, item) = (place as usize, renamed(item));
+                if at < end {
+                    items[at] = item;
+                } else if at < self.finite {
+                    let there = &mut waiting[at / BLOCK];
+                    if there.is_empty() {
+                        there.resize(BLOCK.min(items.len() - at / BLOCK * BLOCK), item);
+                    }
+                    there[at % BLOCK] = item;
+                } else {
+                    last.push((place, item));
+                }
+            }
+        }
+        items.truncate(self.used);
+        for (place, item) in last {
+            items[place as usize] = item;
+        }
+        items.shrink_to_fit();
+        items
     }
 }

@@ -1,14 +1,18 @@
-//! The growing tetrahedralisation: flat arrays over vertices in insertion order.
+//! The growing tetrahedralisation.
 //!
 //! Inside the kernel vertex 0 is the vertex at infinity and vertex k + 1 is the k-th point of the order of
 //! insertion, so points that are inserted together lie together in memory. Corner 3 is the only one that
-//! may be infinite.
+//! may be infinite, and in a tetrahedron that an insertion made corner 0 is the vertex inserted.
 
-use super::{cavity::Cavity, weighted::Weighted};
+use super::cells::{AT_REST, Cells};
 use crate::{Error, FacetId, TetId, id::FACET_CORNERS};
 use glam::DVec3;
 use pellicle_geometry::{Aabb, VertexId};
 use pellicle_predicates::StaticFilter;
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicUsize, Ordering::Relaxed},
+};
 
 /// The vertex at infinity, inside the kernel.
 pub(crate) const INFINITE: VertexId = VertexId(0);
@@ -16,130 +20,168 @@ pub(crate) const INFINITE: VertexId = VertexId(0);
 /// Facet ids leave 30 bits for tetrahedra.
 pub(super) const MOST_TETS: usize = 1 << 30;
 
-/// What the current insertion knows of a tetrahedron.
-#[derive(Clone, Copy, PartialEq, Eq)]
-#[repr(u8)]
-pub(super) enum Mark {
-    Untested,
-    InConflict,
-    Free,
-    Vacant,
-}
-
 pub(super) struct Kernel {
-    /// By vertex; the first stands for infinity and is never read.
+    /// By vertex; the first stands for infinity and decides nothing.
     pub(super) points: Vec<DVec3>,
     /// By vertex, or none: of a regular triangulation.
     pub(super) weights: Vec<f64>,
-    /// Four corners each, positively oriented; an infinite one as if its vertex at infinity were any point
-    /// beyond its hull facet.
-    pub(super) tets: Vec<[VertexId; 4]>,
-    /// By tetrahedron and corner: the facet opposite the corner, seen from the other side.
-    pub(super) twins: Vec<[FacetId; 4]>,
-    pub(super) marks: Vec<Mark>,
-    /// Slots of `tets` that hold no tetrahedron.
-    pub(super) vacant: Vec<TetId>,
+    pub(super) cells: Cells,
+    /// Where new tetrahedra find vacant slots.
+    regions: Vec<Region>,
     pub(super) filter: StaticFilter,
-    pub(super) cavity: Cavity,
-    /// A tetrahedron of the last insertion: where the next walk starts.
-    pub(super) recent: TetId,
+    /// Four points that span a tetrahedron, so that no plane has them all; `None` where vertices go.
+    pub(super) spanning: Option<[VertexId; 4]>,
 }
 
 impl Kernel {
     /// One tetrahedron of the first four points of `order`, which are positively oriented, and four
     /// infinite ones around it.
     pub(super) fn of_first_tetrahedron(points: &[DVec3], order: &[u32]) -> Self {
-        let bounds = Aabb::of_points(points);
         let mut sorted = Vec::with_capacity(order.len() + 1);
-        sorted.push(DVec3::ZERO);
+        sorted.push(points[order[0] as usize]);
         sorted.extend(order.iter().map(|&i| points[i as usize]));
+        let bounds = Aabb::of_points(&sorted);
 
         // Samples of volumes have 6.8 tetrahedra a point; memory that is not touched costs nothing.
         let expected = (7 * order.len()).min(MOST_TETS);
         let mut kernel = Self {
-            cavity: Cavity::for_vertices(sorted.len()),
+            cells: Cells::with_capacity(expected),
+            regions: Vec::new(),
+            filter: StaticFilter::from_bounds(bounds.min, bounds.max),
+            spanning: Some([1, 2, 3, 4].map(VertexId)),
             points: sorted,
             weights: Vec::new(),
-            tets: Vec::with_capacity(expected),
-            twins: Vec::with_capacity(expected),
-            marks: Vec::with_capacity(expected),
-            vacant: Vec::new(),
-            filter: StaticFilter::from_bounds(bounds.min, bounds.max),
-            recent: TetId(0),
         };
-        kernel.push_first_tetrahedron();
+        kernel.make_first_tetrahedron();
         kernel
     }
 
-    pub(super) fn push_first_tetrahedron(&mut self) {
-        let first = [1, 2, 3, 4].map(VertexId);
-        self.push(first);
-        for corners in FACET_CORNERS {
+    /// A kernel without points and tetrahedra.
+    pub(super) fn empty() -> Self {
+        Self {
+            points: vec![DVec3::ZERO],
+            weights: Vec::new(),
+            cells: Cells::default(),
+            regions: Vec::new(),
+            filter: StaticFilter::from_bounds(DVec3::ZERO, DVec3::ZERO),
+            spanning: None,
+        }
+    }
+
+    pub(super) fn make_first_tetrahedron(&mut self) {
+        let mut tets = [[1, 2, 3, 4].map(VertexId); 5];
+        for (i, corners) in FACET_CORNERS.into_iter().enumerate() {
             // The facet seen from outside, so that the point at infinity sees it counter-clockwise.
-            let [a, b, c] = corners.map(|i| first[i]);
-            self.push([a, c, b, INFINITE]);
+            let [a, b, c] = corners.map(|corner| tets[0][corner]);
+            tets[i + 1] = [a, c, b, INFINITE];
         }
         // Each pair of the five shares one facet: the one opposite the corner that the other lacks.
+        let places = || (0..5).flat_map(|t| (0..4).map(move |corner| (t, corner)));
+        let mut twins = [[FacetId::NONE; 4]; 5];
+        for (t, corner) in places() {
+            let facet = without(tets[t], corner);
+            let twin = places()
+                .find(|&(other, across)| other != t && without(tets[other], across) == facet);
+            let (other, across) = twin.expect("the five tetrahedra close up");
+            twins[t][corner] = FacetId::of(TetId::new(other), across);
+        }
+        if self.cells.len() < 5 {
+            self.cells.grow(5);
+        }
         for t in 0..5 {
-            for corner in 0..4 {
-                let facet = without(self.tets[t], corner);
-                for other in (0..5).filter(|&other| other != t) {
-                    for other_corner in 0..4 {
-                        if without(self.tets[other], other_corner) == facet {
-                            self.twins[t][corner] = FacetId::of(TetId::new(other), other_corner);
-                        }
-                    }
-                }
-            }
+            self.cells.set(TetId::new(t), tets[t], twins[t]);
+            self.cells.set_mark(TetId::new(t), AT_REST);
         }
     }
 
-    fn push(&mut self, corners: [VertexId; 4]) {
-        self.tets.push(corners);
-        self.twins.push([FacetId::NONE; 4]);
-        self.marks.push(Mark::Untested);
+    /// Prepares for a round that multiplies the points by `factor`: the tetrahedra are spread over as many
+    /// slots as there will be, and `workers` have a region each to fill.
+    ///
+    /// The tetrahedra lie in memory about as the Hilbert curve runs. Where they are spread, each round's
+    /// tetrahedra come to lie among those of the rounds before: neighbours in space stay neighbours in
+    /// memory, and an insertion touches few pages.
+    pub(super) fn spread(&mut self, factor: f64, workers: usize) {
+        let wanted = (self.cells.count() as f64 * factor) as usize;
+        self.cells.spread(wanted.min(MOST_TETS));
+        self.regions = Region::divide(0..self.cells.len(), workers);
     }
 
-    /// A slot for a new tetrahedron.
-    #[inline]
-    pub(super) fn allocate(&mut self) -> Result<TetId, Error> {
-        if let Some(slot) = self.vacant.pop() {
-            return Ok(slot);
-        }
-        if self.tets.len() >= MOST_TETS {
+    /// The first tetrahedron of a worker's region, or any where that holds none.
+    pub(super) fn first_of_region(&self, worker: usize) -> TetId {
+        let start = self.regions[worker].next.load(Relaxed);
+        let after = start..self.cells.len();
+        let mut slots = after.chain(0..start).map(TetId::new);
+        slots
+            .find(|&slot| self.cells.mark(slot) == AT_REST)
+            .expect("there are tetrahedra from the first one on")
+    }
+
+    /// Gives all slots out again, those in use included.
+    pub(super) fn reset_regions(&mut self) {
+        self.regions = Region::divide(0..self.cells.len(), 1);
+    }
+
+    /// Makes room for more tetrahedra: little at a time, since new slots are touched.
+    pub(super) fn grow(&mut self) -> Result<(), Error> {
+        let len = self.cells.len();
+        if len >= MOST_TETS {
             return Err(Error::TooMany {
                 of: "tetrahedra",
                 limit: MOST_TETS,
             });
         }
-        self.push([INFINITE; 4]);
-        Ok(TetId::new(self.tets.len() - 1))
+        self.cells.grow((len + (len / 64).max(256)).min(MOST_TETS));
+        self.regions = Region::divide(len..self.cells.len(), 1);
+        Ok(())
     }
 
-    /// Inserts the point at `position` of the order.
-    pub(super) fn insert(&mut self, position: usize) -> Result<(), Error> {
-        let vertex = VertexId::new(position + 1);
-        let p = self.points[vertex.index()];
-        let start = self.locate(p);
-        match self.weights.get(vertex.index()) {
-            None => self.dig(start, p),
-            Some(&weight) => {
-                let weighted = Weighted {
-                    position: p,
-                    weight,
-                };
-                if !self.is_in_conflict(start, weighted) {
-                    return Ok(()); // hidden
-                }
-                self.dig(start, weighted);
-            }
+    /// Slots among which a worker may look for vacant ones; none when all are taken.
+    #[inline(always)]
+    pub(super) fn take_slots(&self, worker: usize) -> Range<usize> {
+        match self.regions.get(worker).map(Region::take) {
+            Some(slots) if !slots.is_empty() => slots,
+            _ => self.take_slots_elsewhere(),
         }
-        self.retriangulate(vertex)
     }
 
-    #[inline]
+    #[cold]
+    fn take_slots_elsewhere(&self) -> Range<usize> {
+        let taken = self.regions.iter().map(Region::take);
+        taken
+            .into_iter()
+            .find(|slots| !slots.is_empty())
+            .unwrap_or(0..0)
+    }
+
+    #[inline(always)]
     pub(super) fn point(&self, vertex: VertexId) -> DVec3 {
         self.points[vertex.index()]
+    }
+}
+
+/// Slots that are handed out in blocks.
+struct Region {
+    next: AtomicUsize,
+    end: usize,
+}
+
+impl Region {
+    /// Slots in a block.
+    const BLOCK: usize = 128;
+
+    fn divide(slots: Range<usize>, parts: usize) -> Vec<Self> {
+        let cut = |k: usize| slots.start + slots.len() * k / parts;
+        (0..parts)
+            .map(|k| Self {
+                next: AtomicUsize::new(cut(k)),
+                end: cut(k + 1),
+            })
+            .collect()
+    }
+
+    fn take(&self) -> Range<usize> {
+        let start = self.next.fetch_add(Self::BLOCK, Relaxed).min(self.end);
+        start..(start + Self::BLOCK).min(self.end)
     }
 }
 

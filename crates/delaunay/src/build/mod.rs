@@ -1,13 +1,16 @@
 //! Incremental construction: order, first tetrahedron, then for each point locate, dig, retriangulate.
 
 mod cavity;
+mod cells;
 mod conflict;
 mod finish;
 mod first;
 mod kernel;
 mod locate;
+mod parallel;
 mod steps;
 mod weighted;
+mod worker;
 
 #[cfg(test)]
 pub(crate) mod tests;
@@ -20,9 +23,6 @@ pub(crate) use steps::Stepwise;
 
 use pellicle_geometry::{Cancelled, DVec3, Progress, VertexId, first_not_finite};
 use pellicle_spatial::brio;
-
-/// Points inserted between two calls of the observer: some milliseconds' work.
-const POINTS_PER_STEP: usize = 4096;
 
 /// See [`crate::tetrahedralize_with`], and with weights [`crate::tetrahedralize_weighted_with`]: the points that
 /// are then neither vertices nor duplicates have no incident tetrahedron.
@@ -54,14 +54,9 @@ pub(crate) fn tetrahedralize<'a>(
         kernel.set_weights(weights, &order);
     }
 
-    // 3. The others, one by one.
+    // 3. The others, each into the conflict region that it digs.
+    parallel::insert_all(&mut kernel, progress)?;
     let total = order.len() as u64;
-    for vertex in 4..order.len() {
-        if vertex % POINTS_PER_STEP == 0 {
-            Cancelled::check(progress.step("tetrahedralize", vertex as u64, total))?;
-        }
-        kernel.insert(vertex)?;
-    }
     Cancelled::check(progress.step("tetrahedralize", total, total))?;
 
     // 4. Back to the caller's vertices.

@@ -2,14 +2,18 @@
 //! tetrahedra, twins and marks are stored is known up to here.
 
 use super::{
-    cavity::Cavity,
+    cells::{AT_REST, KEPT},
     first,
-    kernel::{INFINITE, Kernel, MOST_TETS, Mark},
+    kernel::{INFINITE, Kernel, MOST_TETS},
+    worker::Worker,
 };
 use crate::{Error, FacetId, TetId, id::facet_vertices};
 use glam::DVec3;
 use pellicle_geometry::{Aabb, VertexId};
-use pellicle_predicates::StaticFilter;
+use pellicle_predicates::{
+    StaticFilter,
+    lanes::{Registers, Vectorized, vectorized},
+};
 use pellicle_spatial::brio;
 
 /// Fewer points than this are inserted as they come: an order costs more than it saves.
@@ -18,6 +22,8 @@ const FEWEST_TO_ORDER: usize = 64;
 /// A kernel between insertions and removals. Vertex 0 is the one at infinity.
 pub(crate) struct Stepwise {
     kernel: Kernel,
+    /// The only one.
+    worker: Worker,
     /// The tetrahedra that are to leave.
     hole: Vec<TetId>,
     link: Vec<LinkFacet>,
@@ -43,19 +49,9 @@ impl LinkFacet {
 impl Stepwise {
     /// A kernel without points and tetrahedra.
     pub(crate) fn new() -> Self {
-        let kernel = Kernel {
-            points: vec![DVec3::NAN],
-            weights: Vec::new(),
-            tets: Vec::new(),
-            twins: Vec::new(),
-            marks: Vec::new(),
-            vacant: Vec::new(),
-            filter: StaticFilter::from_bounds(DVec3::ZERO, DVec3::ZERO),
-            cavity: Cavity::for_vertices(1),
-            recent: TetId(0),
-        };
         Self {
-            kernel,
+            kernel: Kernel::empty(),
+            worker: Worker::new(0, 1),
             hole: Vec::new(),
             link: Vec::new(),
         }
@@ -65,36 +61,35 @@ impl Stepwise {
 
     #[inline]
     pub(crate) fn point(&self, vertex: VertexId) -> DVec3 {
-        self.kernel.points[vertex.index()]
+        self.kernel.point(vertex)
     }
 
     #[inline]
     pub(crate) fn corners(&self, tet: TetId) -> [VertexId; 4] {
-        self.kernel.tets[tet.index()]
+        self.kernel.cells.corners(tet)
     }
 
     #[inline]
     pub(crate) fn twin(&self, facet: FacetId) -> FacetId {
-        self.kernel.twins[facet.tet().index()][facet.corner()]
+        self.kernel.cells.twin(facet)
     }
 
     /// Tetrahedra are named by ids below this number, not all of them in use.
     #[inline]
     pub(crate) fn tet_slots(&self) -> usize {
-        self.kernel.tets.len()
+        self.kernel.cells.len()
     }
 
     /// Whether the id names a tetrahedron, between two steps.
     #[inline]
     pub(crate) fn is_in_use(&self, tet: TetId) -> bool {
-        let mark = self.kernel.marks.get(tet.index());
-        mark.is_some_and(|mark| !matches!(mark, Mark::InConflict | Mark::Vacant))
+        tet.index() < self.tet_slots() && self.kernel.cells.mark(tet) == AT_REST
     }
 
     /// A tetrahedron made by the last step.
     #[inline]
     pub(crate) fn recent(&self) -> Option<TetId> {
-        (self.tet_slots() > 0).then_some(self.kernel.recent)
+        (self.tet_slots() > 0).then_some(self.worker.recent)
     }
 
     // Points.
@@ -104,7 +99,7 @@ impl Stepwise {
         let points = &mut self.kernel.points;
         if vertex.index() == points.len() {
             points.push(p);
-            self.kernel.cavity.make_room(points.len());
+            self.worker.cavity.make_room_for_vertices(points.len());
         } else {
             points[vertex.index()] = p;
         }
@@ -113,17 +108,16 @@ impl Stepwise {
     /// From now on all points lie in this box.
     pub(crate) fn set_bounds(&mut self, bounds: Aabb) {
         self.kernel.filter = StaticFilter::from_bounds(bounds.min, bounds.max);
+        self.kernel.points[INFINITE.index()] = bounds.min;
     }
 
     // Whole tetrahedralisations.
 
     /// Leaves no tetrahedra; the storage is kept.
     pub(crate) fn clear(&mut self) {
-        self.kernel.tets.clear();
-        self.kernel.twins.clear();
-        self.kernel.marks.clear();
-        self.kernel.vacant.clear();
-        self.kernel.recent = TetId(0);
+        self.kernel.cells.clear();
+        self.kernel.reset_regions();
+        self.worker.start_round(TetId(0));
     }
 
     /// Takes over tetrahedra among the points, of which all lie in `bounds`.
@@ -134,9 +128,12 @@ impl Stepwise {
         bounds: Aabb,
     ) {
         self.clear();
-        self.kernel.marks.resize(tets.len(), Mark::Untested);
-        self.kernel.tets = tets;
-        self.kernel.twins = twins;
+        let cells = &mut self.kernel.cells;
+        cells.grow(tets.len());
+        for (t, (corners, twins)) in tets.into_iter().zip(twins).enumerate() {
+            cells.set(TetId::new(t), corners, twins);
+            cells.set_mark(TetId::new(t), AT_REST);
+        }
         self.set_bounds(bounds);
     }
 
@@ -155,10 +152,12 @@ impl Stepwise {
         kernel.points.truncate(1);
         let sorted = order.iter().map(|&i| points[i as usize]);
         kernel.points.extend(sorted);
-        kernel.cavity.make_room(kernel.points.len());
-        kernel.push_first_tetrahedron();
-        for position in 4..order.len() {
-            kernel.insert(position)?;
+        let vertices = kernel.points.len();
+        self.worker.cavity.make_room_for_vertices(vertices);
+        kernel.make_first_tetrahedron();
+        for vertex in (5..vertices).map(VertexId::new) {
+            self.dig_around(self.kernel.point(vertex));
+            self.fill_cavity(vertex)?;
         }
         Ok(order)
     }
@@ -168,61 +167,75 @@ impl Stepwise {
     /// Makes a vertex of a point already set, from a tetrahedron that is in conflict with it, and returns the
     /// tetrahedra that fill the cavity.
     pub(crate) fn insert(&mut self, start: TetId, vertex: VertexId) -> Result<&[TetId], Error> {
-        let kernel = &mut self.kernel;
-        kernel.dig(start, kernel.points[vertex.index()]);
-        let (leave, come) = (kernel.cavity.conflict.len(), kernel.cavity.boundary.len());
-        if let Err(error) = self.check_room(leave, come) {
-            let kernel = &mut self.kernel;
-            let outside = kernel.cavity.boundary.iter().map(|facet| facet.outer.tet());
-            for tet in outside.chain(kernel.cavity.conflict.iter().copied()) {
-                kernel.marks[tet.index()] = Mark::Untested;
+        self.dig_from(start, self.kernel.point(vertex));
+        self.fill_cavity(vertex)?;
+        Ok(self.worker.cavity.conflict())
+    }
+
+    fn dig_from(&mut self, start: TetId, p: DVec3) {
+        self.kernel.cells.set_mark(start, self.worker.mark);
+        let is_dug = vectorized(Dig {
+            kernel: &self.kernel,
+            worker: &mut self.worker,
+            start,
+            p,
+        });
+        debug_assert!(is_dug, "nobody else is in the way");
+    }
+
+    /// Fills the cavity with tetrahedra around a vertex; without room for them, leaves it as it was.
+    fn fill_cavity(&mut self, vertex: VertexId) -> Result<(), Error> {
+        let growth = self.worker.cavity.growth();
+        while !self.worker.reserve(&self.kernel, growth) {
+            if let Err(error) = self.kernel.grow() {
+                self.worker.release(&self.kernel);
+                return Err(error);
             }
-            return Err(error);
         }
-        self.kernel.retriangulate(vertex)?;
-        Ok(&self.kernel.cavity.filling)
+        self.worker.retriangulate(&self.kernel, vertex);
+        Ok(())
     }
 
     // Removal.
 
     /// Marks the tetrahedra in conflict with a point that is no vertex, and returns them.
     pub(crate) fn dig_around(&mut self, p: DVec3) -> &[TetId] {
-        let start = self.kernel.locate(p);
-        self.kernel.dig(start, p);
-        &self.kernel.cavity.conflict
+        let start = self.worker.locate::<false>(&self.kernel, p);
+        self.dig_from(start.expect("no walk is given up where nobody else is"), p);
+        self.dug()
     }
 
     /// The tetrahedra that the last [`dig_around`](Self::dig_around) found.
     pub(crate) fn dug(&self) -> &[TetId] {
-        &self.kernel.cavity.conflict
+        self.worker.cavity.conflict()
     }
 
     /// Whether the last [`dig_around`](Self::dig_around) found this one.
     #[inline]
     pub(crate) fn is_dug(&self, tet: TetId) -> bool {
-        self.kernel.marks[tet.index()] == Mark::InConflict
+        self.kernel.cells.mark(tet) == self.worker.mark
     }
 
     /// Makes the tetrahedra at a vertex, of which `start` is one, the hole.
     pub(crate) fn dig_star(&mut self, start: TetId, vertex: VertexId) {
-        let Self { kernel, hole, link } = self;
+        let (cells, mine) = (&self.kernel.cells, self.worker.mark);
+        let Self { hole, link, .. } = self;
         hole.clear();
         link.clear();
-        kernel.marks[start.index()] = Mark::InConflict;
+        cells.set_mark(start, mine);
         hole.push(start);
         let mut next = 0;
         while let Some(&tet) = hole.get(next) {
             next += 1;
-            let corners = kernel.tets[tet.index()];
-            for (i, outer) in kernel.twins[tet.index()].into_iter().enumerate() {
-                let mark = &mut kernel.marks[outer.tet().index()];
+            let corners = cells.corners(tet);
+            for (i, outer) in cells.twins(tet).into_iter().enumerate() {
                 if corners[i] == vertex {
                     link.push(LinkFacet {
                         corners: facet_vertices(corners, i),
                         outer,
                     });
-                } else if *mark != Mark::InConflict {
-                    *mark = Mark::InConflict;
+                } else if cells.mark(outer.tet()) != mine {
+                    cells.set_mark(outer.tet(), mine);
                     hole.push(outer.tet());
                 }
             }
@@ -236,8 +249,8 @@ impl Stepwise {
 
     /// Leaves the tetrahedra of the hole as they were.
     pub(crate) fn close_hole(&mut self) {
-        for tet in &self.hole {
-            self.kernel.marks[tet.index()] = Mark::Untested;
+        for &tet in &self.hole {
+            self.kernel.cells.set_mark(tet, AT_REST);
         }
     }
 
@@ -245,26 +258,30 @@ impl Stepwise {
     /// changed if these are too many.
     pub(crate) fn vacate_hole(&mut self, count: usize) -> Result<(), Error> {
         self.check_room(self.hole.len(), count)?;
-        for tet in &self.hole {
-            self.kernel.marks[tet.index()] = Mark::Vacant;
+        for &tet in &self.hole {
+            self.kernel.cells.set_mark(tet, KEPT);
         }
-        self.kernel.vacant.append(&mut self.hole);
+        self.worker.kept.append(&mut self.hole);
         Ok(())
     }
 
     /// Adds a tetrahedron that is not joined to anything yet.
     pub(crate) fn place(&mut self, corners: [VertexId; 4]) -> Result<TetId, Error> {
-        let tet = self.kernel.allocate()?;
-        self.kernel.tets[tet.index()] = corners;
-        self.kernel.marks[tet.index()] = Mark::Untested;
-        self.kernel.recent = tet;
+        while !self.worker.reserve(&self.kernel, 1) {
+            self.kernel.grow()?;
+        }
+        let tet = self.worker.kept.pop().expect("a slot is reserved");
+        let cells = &self.kernel.cells;
+        cells.set(tet, corners, [FacetId::NONE; 4]);
+        cells.set_mark(tet, AT_REST);
+        self.worker.recent = tet;
         Ok(tet)
     }
 
     /// Makes `twin` the other side of `facet`, but not yet the reverse.
     #[inline]
     pub(crate) fn set_twin(&mut self, facet: FacetId, twin: FacetId) {
-        self.kernel.twins[facet.tet().index()][facet.corner()] = twin;
+        self.kernel.cells.set_twin(facet, twin);
     }
 
     /// Makes two facets each other's other side.
@@ -276,13 +293,31 @@ impl Stepwise {
 
     /// Whether there is room for tetrahedra that come when others leave.
     fn check_room(&self, leave: usize, come: usize) -> Result<(), Error> {
-        let unused = MOST_TETS - self.kernel.tets.len();
-        if come > self.kernel.vacant.len() + leave + unused {
+        let unused = MOST_TETS - self.tet_slots();
+        if come > self.worker.kept.len() + leave + unused {
             return Err(Error::TooMany {
                 of: "tetrahedra",
                 limit: MOST_TETS,
             });
         }
         Ok(())
+    }
+}
+
+/// A point digs its cavity from a tetrahedron in conflict.
+struct Dig<'a> {
+    kernel: &'a Kernel,
+    worker: &'a mut Worker,
+    start: TetId,
+    p: DVec3,
+}
+
+impl Vectorized for Dig<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<R: Registers>(self, registers: R) -> bool {
+        let (kernel, worker) = (self.kernel, self.worker);
+        worker.dig::<false, R>(registers, kernel, self.start, self.p)
     }
 }

@@ -9,10 +9,14 @@
 //! the hyperplanes on both sides of it have the same height there: both are in conflict or neither is. So no flat
 //! tetrahedron comes up, and the point may be the position of a vertex that it hides.
 
-use super::{conflict::Query, kernel::Kernel};
+use super::{
+    conflict::Query,
+    kernel::Kernel,
+    worker::{Outcome, Worker},
+};
 use crate::Error;
 use pellicle_geometry::{DVec3, VertexId};
-use pellicle_predicates::Sign;
+use pellicle_predicates::{FourVerdicts, Sign, lanes::Registers};
 
 /// A point with a weight, in a kernel whose vertices have weights.
 #[derive(Clone, Copy)]
@@ -36,6 +40,35 @@ impl Query for Weighted {
             .filter
             .power_test_perturbed(a, b, c, d, self.position, weights);
         sign == Sign::Positive
+    }
+
+    /// One by one is fast enough.
+    #[inline(always)]
+    fn is_inside_across<R: Registers>(
+        self,
+        _registers: R,
+        _kernel: &Kernel,
+        _corners: [VertexId; 4],
+        _opposite: [VertexId; 4],
+    ) -> FourVerdicts {
+        FourVerdicts::default()
+    }
+}
+
+impl Worker {
+    /// Inserts a point with its weight.
+    #[inline(never)]
+    pub(super) fn insert_weighted<const SHARED: bool, R: Registers>(
+        &mut self,
+        registers: R,
+        kernel: &Kernel,
+        vertex: VertexId,
+    ) -> Outcome {
+        let weighted = Weighted {
+            position: kernel.point(vertex),
+            weight: kernel.weights[vertex.index()],
+        };
+        self.insert::<SHARED, R>(registers, kernel, vertex, weighted)
     }
 }
 
