@@ -55,7 +55,7 @@ pub use plane::StaticFilter2;
 
 use crate::{
     Sign, determinant,
-    lanes::{self, Registers},
+    lanes::{self, FourVerdicts, InSphereBounds, Registers},
     lifted,
     statistics::{Predicate, Stage, decided},
 };
@@ -257,18 +257,11 @@ pub struct StaticFilter {
     max: DVec3,
     orient3d: f64,
     insphere: f64,
+    /// Half the least determinants that are not zero, or 0: see [`with_unit`](Self::with_unit).
+    half_unit_of_orient3d: f64,
+    half_unit_of_insphere: f64,
     weights: [f64; 2],
     power_test: f64,
-}
-
-/// What [`StaticFilter::insphere_across`] is sure of: bit i of each set stands for neighbour i, and a bit that
-/// is in neither is undecided.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct FourVerdicts {
-    /// The neighbours that have the point inside their sphere.
-    pub inside: u8,
-    /// The neighbours that have it outside.
-    pub outside: u8,
 }
 
 impl StaticFilter {
@@ -287,9 +280,39 @@ impl StaticFilter {
             max,
             orient3d: usable(orient3d_bound(extents)),
             insphere: usable(insphere_bound(extents)),
+            half_unit_of_orient3d: 0.0,
+            half_unit_of_insphere: 0.0,
             weights: [f64::NEG_INFINITY, f64::INFINITY],
             power_test: f64::INFINITY,
         }
+    }
+
+    /// The same filter for points whose coordinates are all multiples of `unit`, a power of two, and so small
+    /// multiples of it that their differences are exact: scans with a fixed step, grids, rounded coordinates.
+    /// Determinants are then multiples of a power of the unit, and where the bound on the error is less than
+    /// half of that, one that may be zero is zero: the filter decides ties too.
+    ///
+    /// A unit outside 2^±180, or so small that differences may be rounded, changes nothing.
+    ///
+    /// ```
+    /// use glam::DVec3;
+    /// use pellicle_predicates::{Sign, StaticFilter};
+    ///
+    /// let filter = StaticFilter::from_bounds(DVec3::ZERO, DVec3::splat(9.0)).with_unit(1.0);
+    /// let [a, b, c] = [DVec3::ZERO, DVec3::X, DVec3::Y];
+    /// assert_eq!(filter.orient3d(a, b, c, DVec3::new(7.0, 9.0, 0.0)), Sign::Zero);
+    /// ```
+    #[must_use]
+    pub fn with_unit(mut self, unit: f64) -> Self {
+        const RANGE: std::ops::RangeInclusive<f64> =
+            f64::from_bits((1023 - 180) << 52)..=f64::from_bits((1023 + 180) << 52);
+        let largest = self.min.abs().max(self.max.abs()).max_element();
+        let is_exact = RANGE.contains(&unit) && largest <= unit * f64::from_bits((1023 + 52) << 52);
+        if is_exact {
+            self.half_unit_of_orient3d = 0.5 * unit.powi(3);
+            self.half_unit_of_insphere = 0.5 * unit.powi(5);
+        }
+        self
     }
 
     /// The same filter for points whose weights lie between `least` and `greatest`, in squares of the unit of
@@ -365,6 +388,10 @@ impl StaticFilter {
             Some(sign) => {
                 decided(Predicate::Orient3d, Stage::Static);
                 sign
+            }
+            None if self.orient3d < self.half_unit_of_orient3d => {
+                decided(Predicate::Orient3d, Stage::Static);
+                Sign::Zero
             }
             None => out_of_line::orient3d(a, b, c, d),
         }
@@ -453,8 +480,8 @@ impl StaticFilter {
     }
 
     /// Which of the four neighbours of the positive tetrahedron `corners` have `p` inside their spheres, as
-    /// far as the static filter alone can say: four tests at once. Neighbour i shares all corners but
-    /// corner i, in whose place it has `opposite[i]`.
+    /// far as the filters can say: four tests at once. Neighbour i shares all corners but corner i, in whose
+    /// place it has `opposite[i]`; `asked` has bit i where its verdict is wanted.
     #[inline(always)]
     pub fn insphere_across<R: Registers>(
         &self,
@@ -462,12 +489,31 @@ impl StaticFilter {
         corners: [DVec3; 4],
         opposite: [DVec3; 4],
         p: DVec3,
+        asked: u8,
     ) -> FourVerdicts {
         self.check(&corners);
         self.check(&opposite);
-        let (inside, outside) =
-            lanes::insphere_across(registers, corners, opposite, p, self.insphere);
-        FourVerdicts { inside, outside }
+        let bounds = InSphereBounds {
+            of_box: self.insphere,
+            half_unit: self.half_unit_of_insphere,
+            factor: INSPHERE,
+            least: TINY,
+            most: HUGE,
+        };
+        lanes::insphere_across(registers, corners, opposite, p, asked, bounds)
+    }
+
+    /// [`lifted::insphere_of_cospherical`] for points inside the box, which are known to be cospherical.
+    #[inline]
+    pub fn insphere_of_cospherical(
+        &self,
+        a: DVec3,
+        b: DVec3,
+        c: DVec3,
+        d: DVec3,
+        e: DVec3,
+    ) -> Sign {
+        lifted::insphere_of_cospherical_by([a, b, c, d, e], |a, b, c, d| self.orient3d(a, b, c, d))
     }
 
     /// [`lifted::insphere`] for points inside the box.
@@ -477,6 +523,9 @@ impl StaticFilter {
             Some(sign) => {
                 decided(Predicate::InSphere, Stage::Static);
                 sign
+            }
+            None if self.insphere < self.half_unit_of_insphere => {
+                self.insphere_of_cospherical(a, b, c, d, e)
             }
             None => out_of_line::insphere_perturbed(a, b, c, d, e),
         }

@@ -23,10 +23,12 @@ pub trait Registers: Copy {
     fn mul(self, a: Self::Four, b: Self::Four) -> Self::Four;
     /// The lanes named by the pairs of bits of `LANES`, the lowest pair first.
     fn permuted<const LANES: i32>(self, a: Self::Four) -> Self::Four;
-    /// Bit i says whether lane i is greater than `bound`.
-    fn above(self, a: Self::Four, bound: f64) -> u8;
-    /// Bit i says whether lane i is less than `bound`.
-    fn below(self, a: Self::Four, bound: f64) -> u8;
+    /// Absolute values, lane by lane.
+    fn abs(self, a: Self::Four) -> Self::Four;
+    /// The greater one, lane by lane; not for NaN.
+    fn max(self, a: Self::Four, b: Self::Four) -> Self::Four;
+    /// Bit i says whether lane i of `a` is greater than that of `b`.
+    fn greater(self, a: Self::Four, b: Self::Four) -> u8;
 }
 
 /// Work that is compiled once for each kind of registers. All that [`run`](Self::run) calls must be inlined
@@ -48,7 +50,7 @@ pub trait Vectorized {
 ///     type Output = u8;
 ///     #[inline(always)]
 ///     fn run<R: Registers>(self, registers: R) -> u8 {
-///         registers.above(registers.set(self.0), 0.0)
+///         registers.greater(registers.set(self.0), registers.set([0.0; 4]))
 ///     }
 /// }
 /// assert_eq!(vectorized(Positive([1.0, -1.0, 2.0, 0.0])), 0b0101);
@@ -79,12 +81,6 @@ fn zip([a, b, c, d]: [f64; 4], [e, f, g, h]: [f64; 4], of: impl Fn(f64, f64) -> 
     [of(a, e), of(b, f), of(c, g), of(d, h)]
 }
 
-#[inline(always)]
-fn bits(lanes: [f64; 4], holds: impl Fn(f64) -> bool) -> u8 {
-    let [a, b, c, d] = lanes.map(|lane| u8::from(holds(lane)));
-    a | b << 1 | c << 2 | d << 3
-}
-
 impl Registers for Plain {
     type Four = [f64; 4];
 
@@ -109,12 +105,17 @@ impl Registers for Plain {
         std::array::from_fn(|i| a[(LANES >> (2 * i) & 3) as usize])
     }
     #[inline(always)]
-    fn above(self, a: [f64; 4], bound: f64) -> u8 {
-        bits(a, |lane| lane > bound)
+    fn abs(self, [a, b, c, d]: [f64; 4]) -> [f64; 4] {
+        [a.abs(), b.abs(), c.abs(), d.abs()]
     }
     #[inline(always)]
-    fn below(self, a: [f64; 4], bound: f64) -> u8 {
-        bits(a, |lane| lane < bound)
+    fn max(self, a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
+        zip(a, b, |x, y| if x > y { x } else { y })
+    }
+    #[inline(always)]
+    fn greater(self, a: [f64; 4], b: [f64; 4]) -> u8 {
+        let bit = |i: usize| u8::from(a[i] > b[i]) << i;
+        bit(0) | bit(1) | bit(2) | bit(3)
     }
 }
 
@@ -148,22 +149,19 @@ impl Registers for Avx2 {
         self.0.avx2._mm256_permute4x64_pd::<LANES>(a)
     }
     #[inline(always)]
-    fn above(self, a: Self::Four, bound: f64) -> u8 {
-        let bound = self.0.avx._mm256_set1_pd(bound);
-        let greater = self
-            .0
-            .avx
-            ._mm256_cmp_pd::<{ std::arch::x86_64::_CMP_GT_OQ }>(a, bound);
-        self.0.avx._mm256_movemask_pd(greater) as u8
+    fn abs(self, a: Self::Four) -> Self::Four {
+        let sign = self.0.avx._mm256_set1_pd(-0.0);
+        self.0.avx._mm256_andnot_pd(sign, a)
     }
     #[inline(always)]
-    fn below(self, a: Self::Four, bound: f64) -> u8 {
-        let bound = self.0.avx._mm256_set1_pd(bound);
-        let less = self
-            .0
-            .avx
-            ._mm256_cmp_pd::<{ std::arch::x86_64::_CMP_LT_OQ }>(a, bound);
-        self.0.avx._mm256_movemask_pd(less) as u8
+    fn max(self, a: Self::Four, b: Self::Four) -> Self::Four {
+        self.0.avx._mm256_max_pd(a, b)
+    }
+    #[inline(always)]
+    fn greater(self, a: Self::Four, b: Self::Four) -> u8 {
+        let avx = self.0.avx;
+        let greater = avx._mm256_cmp_pd::<{ std::arch::x86_64::_CMP_GT_OQ }>(a, b);
+        avx._mm256_movemask_pd(greater) as u8
     }
 }
 
@@ -223,9 +221,20 @@ const fn lanes([i, j, k, l]: [i32; 4]) -> i32 {
     i | j << 2 | k << 4 | l << 6
 }
 
-/// By corner of the positive tetrahedron `corners`: the in-sphere determinant, positive when `p` is inside,
-/// of the neighbour opposite that corner, whose fourth vertex is `opposite`. Bit sets of those above `bound`
-/// and of those below `-bound`.
+/// What the filters say of four in-sphere tests: bit i stands for test i.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FourVerdicts {
+    /// The spheres that surely have the point inside.
+    pub inside: u8,
+    /// Those that surely have it outside.
+    pub outside: u8,
+    /// Those that surely have it on them.
+    pub on: u8,
+}
+
+/// For each corner of the positive tetrahedron `corners` that `asked` names: whether `p` is inside the sphere of
+/// the neighbour opposite that corner, whose fourth vertex is `opposite`. The static filter, and where that is
+/// not enough, the semi-static one.
 ///
 /// The neighbour opposite corner i has the other three corners, turned around, and opposite vertex i:
 ///
@@ -241,8 +250,9 @@ pub(crate) fn insphere_across<R: Registers>(
     corners: [DVec3; 4],
     opposite: [DVec3; 4],
     p: DVec3,
-    bound: f64,
-) -> (u8, u8) {
+    asked: u8,
+    bounds: InSphereBounds,
+) -> FourVerdicts {
     const FIRST: i32 = lanes([3, 2, 3, 1]);
     const SECOND: i32 = lanes([1, 0, 0, 0]);
     const THIRD: i32 = lanes([2, 3, 1, 2]);
@@ -270,9 +280,64 @@ pub(crate) fn insphere_across<R: Registers>(
         &lift.permuted::<SECOND>(),
         &lift.permuted::<THIRD>(),
         &determinant::lift(&opposite),
-    );
-    (
-        registers.above(value.four, bound),
-        registers.below(value.four, -bound),
     )
+    .four;
+    let splat = |x: f64| registers.set([x; 4]);
+    let negated = registers.sub(splat(0.0), value);
+    let bound = splat(bounds.of_box);
+    let mut verdicts = FourVerdicts {
+        inside: registers.greater(value, bound),
+        outside: registers.greater(negated, bound),
+        on: 0,
+    };
+    let undecided = asked & !(verdicts.inside | verdicts.outside);
+    if undecided == 0 {
+        return verdicts;
+    }
+    if bounds.of_box < bounds.half_unit {
+        verdicts.on = undecided;
+        return verdicts;
+    }
+    let spread = |corners: Lanes<R>, opposite: Lanes<R>| {
+        let corners = corners.with(registers.abs(corners.four));
+        let first = corners.permuted::<FIRST>().four;
+        let second = corners.permuted::<SECOND>().four;
+        let third = corners.permuted::<THIRD>().four;
+        let opposite = registers.abs(opposite.four);
+        registers.max(registers.max(first, second), registers.max(third, opposite))
+    };
+    let (x, y, z) = (
+        spread(x, opposite[0]),
+        spread(y, opposite[1]),
+        spread(z, opposite[2]),
+    );
+    let in_range = |spread: R::Four| {
+        registers.greater(spread, splat(bounds.least))
+            & registers.greater(splat(bounds.most), spread)
+    };
+    let usable = undecided & in_range(x) & in_range(y) & in_range(z);
+    let square = |x: R::Four| registers.mul(x, x);
+    let squares = registers.add(registers.add(square(x), square(y)), square(z));
+    let volume = registers.mul(registers.mul(x, y), z);
+    let bound = registers.mul(registers.mul(volume, squares), splat(bounds.factor));
+    verdicts.inside |= usable & registers.greater(value, bound);
+    verdicts.outside |= usable & registers.greater(negated, bound);
+    let undecided = usable & !(verdicts.inside | verdicts.outside);
+    verdicts.on = undecided & registers.greater(splat(bounds.half_unit), bound);
+    verdicts
+}
+
+/// Bounds on the error of the in-sphere determinant.
+#[derive(Clone, Copy)]
+pub(crate) struct InSphereBounds {
+    /// For all points of a box.
+    pub(crate) of_box: f64,
+    /// Where the points are on a lattice, half the least determinant that is not zero: with a smaller error, one
+    /// that may be zero is zero. 0 elsewhere.
+    pub(crate) half_unit: f64,
+    /// The bound for a single call is this times X Y Z (X² + Y² + Z²) of its spreads.
+    pub(crate) factor: f64,
+    /// Exclusive limits for the spreads.
+    pub(crate) least: f64,
+    pub(crate) most: f64,
 }

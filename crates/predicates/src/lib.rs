@@ -66,7 +66,7 @@ pub mod statistics;
 pub mod world;
 
 pub use distance::compare_distance;
-pub use filter::{FourVerdicts, StaticFilter, StaticFilter2};
+pub use filter::{StaticFilter, StaticFilter2};
 pub use sign::Sign;
 
 #[cfg(test)]

@@ -137,8 +137,23 @@ pub fn incircle_of_cocircular(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
 #[cold]
 #[inline(never)]
 pub fn insphere_of_cospherical(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
+    insphere_of_cospherical_by([a, b, c, d, e], orient3d)
+}
+
+/// The same, with signs of orientation from elsewhere.
+#[inline]
+pub(crate) fn insphere_of_cospherical_by(
+    [a, b, c, d, e]: [DVec3; 5],
+    orient3d: impl Fn(DVec3, DVec3, DVec3, DVec3) -> Sign,
+) -> Sign {
     decided(Predicate::InSphere, Stage::Perturbation);
-    by_factors([a, b, c, d, e])
+    from_the_largest([a, b, c, d, e], lexicographic, |raised| match raised {
+        0 => orient3d(e, b, c, d),
+        1 => orient3d(a, e, c, d),
+        2 => orient3d(a, b, e, d),
+        3 => orient3d(a, b, c, e),
+        _ => -orient3d(a, b, c, d),
+    })
 }
 
 /// The sign of the perturbation for five points whose lifts are already known to lie on one hyperplane: the

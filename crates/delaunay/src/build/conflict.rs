@@ -7,7 +7,10 @@ use super::{
 use crate::{FacetId, TetId};
 use glam::DVec3;
 use pellicle_geometry::VertexId;
-use pellicle_predicates::{FourVerdicts, Sign, lanes::Registers};
+use pellicle_predicates::{
+    Sign,
+    lanes::{FourVerdicts, Registers},
+};
 
 /// A point that asks which tetrahedra it is in conflict with: a [`DVec3`], or one with a weight.
 pub(super) trait Query: Copy {
@@ -18,14 +21,18 @@ pub(super) trait Query: Copy {
     /// three of the corners the fourth one must have no say.
     fn is_inside(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool;
 
-    /// Of the four neighbours of a finite tetrahedron, which have the fourth vertices `opposite`: what a
-    /// filter can say at once.
+    /// [`is_inside`](Self::is_inside) where the point is known to lie on the sphere.
+    fn is_inside_cospherical(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool;
+
+    /// Of the four neighbours of a finite tetrahedron, which have the fourth vertices `opposite`, those that are
+    /// asked for: what filters can say at once.
     fn is_inside_across<R: Registers>(
         self,
         registers: R,
         kernel: &Kernel,
         corners: [VertexId; 4],
         opposite: [VertexId; 4],
+        asked: u8,
     ) -> FourVerdicts;
 }
 
@@ -42,6 +49,13 @@ impl Query for DVec3 {
         kernel.filter.insphere_perturbed(a, b, c, d, self) == Sign::Positive
     }
 
+    #[inline]
+    fn is_inside_cospherical(self, kernel: &Kernel, [a, b, c, d]: [VertexId; 4]) -> bool {
+        let [a, b] = [kernel.point(a), kernel.point(b)];
+        let [c, d] = [kernel.point(c), kernel.point(d)];
+        kernel.filter.insphere_of_cospherical(a, b, c, d, self) == Sign::Positive
+    }
+
     #[inline(always)]
     fn is_inside_across<R: Registers>(
         self,
@@ -49,11 +63,12 @@ impl Query for DVec3 {
         kernel: &Kernel,
         corners: [VertexId; 4],
         opposite: [VertexId; 4],
+        asked: u8,
     ) -> FourVerdicts {
         let corners = four(|i| kernel.point(corners[i]));
         let opposite = four(|i| kernel.point(opposite[i]));
         let filter = &kernel.filter;
-        filter.insphere_across(registers, corners, opposite, self)
+        filter.insphere_across(registers, corners, opposite, self, asked)
     }
 }
 
@@ -84,9 +99,18 @@ impl Kernel {
             let opposite = four(|i| self.cells.opposite(twins[i]));
             let [a, b, c, d] = four(|i| u8::from(opposite[i] == INFINITE) << i);
             let infinite = a | b | c | d;
-            let verdicts = query.is_inside_across(registers, self, corners, opposite);
-            inside = verdicts.inside & asked & !infinite;
-            undecided = asked & (infinite | !(verdicts.inside | verdicts.outside));
+            let finite = asked & !infinite;
+            let verdicts = query.is_inside_across(registers, self, corners, opposite, finite);
+            inside = verdicts.inside & finite;
+            let decided = verdicts.inside | verdicts.outside | verdicts.on;
+            undecided = asked & (infinite | !decided);
+            let mut on = verdicts.on & finite;
+            while on != 0 {
+                let i = on.trailing_zeros();
+                on &= on - 1;
+                let corners = self.cells.corners(twins[i as usize].tet());
+                inside |= u8::from(query.is_inside_cospherical(self, corners)) << i;
+            }
         }
         while undecided != 0 {
             let i = undecided.trailing_zeros();

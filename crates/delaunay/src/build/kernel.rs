@@ -4,7 +4,10 @@
 //! insertion, so points that are inserted together lie together in memory. Corner 3 is the only one that
 //! may be infinite, and in a tetrahedron that an insertion made corner 0 is the vertex inserted.
 
-use super::cells::{AT_REST, Cells};
+use super::{
+    cells::{AT_REST, Cells},
+    lattice,
+};
 use crate::{Error, FacetId, TetId, id::FACET_CORNERS};
 use glam::DVec3;
 use pellicle_geometry::{Aabb, VertexId};
@@ -47,7 +50,8 @@ impl Kernel {
         let mut kernel = Self {
             cells: Cells::with_capacity(expected),
             regions: Vec::new(),
-            filter: StaticFilter::from_bounds(bounds.min, bounds.max),
+            filter: StaticFilter::from_bounds(bounds.min, bounds.max)
+                .with_unit(lattice::unit(&sorted, bounds)),
             spanning: Some([1, 2, 3, 4].map(VertexId)),
             points: sorted,
             weights: Vec::new(),

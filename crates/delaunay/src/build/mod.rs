@@ -6,6 +6,7 @@ mod conflict;
 mod finish;
 mod first;
 mod kernel;
+mod lattice;
 mod locate;
 mod parallel;
 mod steps;

@@ -16,7 +16,10 @@ use super::{
 };
 use crate::Error;
 use pellicle_geometry::{DVec3, VertexId};
-use pellicle_predicates::{FourVerdicts, Sign, lanes::Registers};
+use pellicle_predicates::{
+    Sign,
+    lanes::{FourVerdicts, Registers},
+};
 
 /// A point with a weight, in a kernel whose vertices have weights.
 #[derive(Clone, Copy)]
@@ -42,6 +45,10 @@ impl Query for Weighted {
         sign == Sign::Positive
     }
 
+    fn is_inside_cospherical(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool {
+        self.is_inside(kernel, corners)
+    }
+
     /// One by one is fast enough.
     #[inline(always)]
     fn is_inside_across<R: Registers>(
@@ -50,6 +57,7 @@ impl Query for Weighted {
         _kernel: &Kernel,
         _corners: [VertexId; 4],
         _opposite: [VertexId; 4],
+        _asked: u8,
     ) -> FourVerdicts {
         FourVerdicts::default()
     }
