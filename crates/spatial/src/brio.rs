@@ -8,6 +8,7 @@ use crate::hilbert;
 use glam::DVec3;
 use pellicle_geometry::Aabb;
 use pellicle_predicates::lifted::lexicographic;
+use rayon::prelude::*;
 
 /// About how many points the first round holds.
 const FIRST_ROUND: usize = 64;
@@ -63,17 +64,21 @@ fn hash(p: DVec3) -> u64 {
 
 /// The points named by `indices`, by `prefix`, then along the Hilbert curve through their box, then by
 /// ever finer curves where many share a cell, at last lexicographically.
-fn curve_order(points: &[DVec3], indices: Vec<u32>, prefix: impl Fn(DVec3) -> u64) -> Vec<u32> {
+fn curve_order(
+    points: &[DVec3],
+    indices: Vec<u32>,
+    prefix: impl Fn(DVec3) -> u64 + Sync,
+) -> Vec<u32> {
     let grid = Grid::around(indices.iter().map(|&i| points[i as usize]));
     let mut keyed: Vec<(u64, u32)> = indices
-        .iter()
+        .par_iter()
         .map(|&i| {
             let p = points[i as usize];
             (prefix(p) | grid.key(p), i)
         })
         .collect();
     let mut order = indices;
-    keyed.sort_unstable();
+    keyed.par_sort_unstable();
 
     let mut start = 0;
     for run in keyed.chunk_by(|a, b| a.0 == b.0) {

@@ -209,9 +209,9 @@ impl Worker {
         }
         // The boundary is a sphere with F facets and F / 2 + 2 vertices.
         if cavity.boundary_count / 2 + 2 <= MOST_TABLED_VERTICES {
-            cavity.join_through_table(kernel, vertex);
+            cavity.join_through_table(kernel, vertex, self.mark);
         } else {
-            cavity.join_through_sorting(kernel, vertex);
+            cavity.join_through_sorting(kernel, vertex, self.mark);
         }
         // Only now may others come.
         for &tet in cavity.conflict() {
@@ -232,7 +232,7 @@ impl Cavity {
     ///      b ——→ c      facet 3 (opposite c): a → b
     /// ```
     #[inline(always)]
-    fn join_through_table(&mut self, kernel: &Kernel, vertex: VertexId) {
+    fn join_through_table(&mut self, kernel: &Kernel, vertex: VertexId, mine: u8) {
         self.ranking.clear();
         let count = self.boundary_count;
         if self.ranks.len() < count {
@@ -266,6 +266,7 @@ impl Cavity {
                     edges[edge(a, c)],
                     edges[edge(b, a)],
                 ],
+                mine,
             );
             kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
         }
@@ -273,12 +274,14 @@ impl Cavity {
 
     /// The same for cavities with many vertices: equal edges meet in a sorted list.
     #[cold]
-    fn join_through_sorting(&mut self, kernel: &Kernel, vertex: VertexId) {
+    fn join_through_sorting(&mut self, kernel: &Kernel, vertex: VertexId, mine: u8) {
         let boundary = &self.boundary[..self.boundary_count];
         let mut edges = Vec::with_capacity(3 * boundary.len());
         for (facet, &tet) in boundary.iter().zip(&self.conflict) {
             let [a, b, c] = least_last(facet.corners);
-            kernel.cells.set(tet, [vertex, a, b, c], [facet.outer; 4]);
+            kernel
+                .cells
+                .set(tet, [vertex, a, b, c], [facet.outer; 4], mine);
             kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
             for (from, to, corner) in [(b, c, 1), (c, a, 2), (a, b, 3)] {
                 edges.push((from.min(to), from.max(to), FacetId::of(tet, corner)));

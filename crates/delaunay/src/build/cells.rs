@@ -5,24 +5,31 @@
 
 use crate::{FacetId, TetId};
 use pellicle_geometry::VertexId;
-use std::sync::atomic::{AtomicU8, AtomicU32, Ordering::*};
+use std::sync::atomic::{AtomicU32, Ordering::*};
+
+/// The first corner's word holds the vertex in these bits and the mark in the others, so that a look at a
+/// tetrahedron fetches both.
+const MARK_SHIFT: u32 = 28;
+const VERTEX_BITS: u32 = (1 << MARK_SHIFT) - 1;
+
+/// How many vertices there may be.
+pub(crate) const MOST_VERTICES: usize = 1 << MARK_SHIFT;
 
 /// The mark of a tetrahedron that no insertion has claimed.
 pub(super) const AT_REST: u8 = 0;
 /// The mark of a slot that holds no tetrahedron.
-pub(super) const VACANT: u8 = u8::MAX;
+pub(super) const VACANT: u8 = 15;
 /// The mark of a slot that holds no tetrahedron and that a worker keeps for a new one.
-pub(super) const KEPT: u8 = u8::MAX - 1;
+pub(super) const KEPT: u8 = 14;
 
 #[derive(Default)]
 pub(super) struct Cells {
-    /// Four corners each, positively oriented; an infinite one as if its vertex at infinity, corner 3, were
+    /// Four corners each, the first with the mark ([`AT_REST`], [`VACANT`], [`KEPT`], or the worker whose
+    /// conflict region the tetrahedron is in); positively oriented; an infinite one as if its vertex at infinity, corner 3, were
     /// any point beyond its hull facet.
     corners: Vec<[AtomicU32; 4]>,
     /// By tetrahedron and corner: the facet opposite the corner, seen from the other side.
     twins: Vec<[AtomicU32; 4]>,
-    /// [`AT_REST`], [`VACANT`], [`KEPT`], or the worker whose conflict region the tetrahedron is in.
-    marks: Vec<AtomicU8>,
 }
 
 impl Cells {
@@ -31,7 +38,6 @@ impl Cells {
         Self {
             corners: Vec::with_capacity(expected),
             twins: Vec::with_capacity(expected),
-            marks: Vec::with_capacity(expected),
         }
     }
 
@@ -43,15 +49,17 @@ impl Cells {
     pub(super) fn clear(&mut self) {
         self.corners.clear();
         self.twins.clear();
-        self.marks.clear();
     }
 
     /// Adds vacant slots until there are `len`.
     pub(super) fn grow(&mut self, len: usize) {
-        let nothing = || [const { AtomicU32::new(0) }; 4];
-        self.corners.resize_with(len, nothing);
-        self.twins.resize_with(len, nothing);
-        self.marks.resize_with(len, || AtomicU8::new(VACANT));
+        self.corners.resize_with(len, || {
+            let mut corners = [const { AtomicU32::new(0) }; 4];
+            *corners[0].get_mut() = u32::from(VACANT) << MARK_SHIFT;
+            corners
+        });
+        self.twins
+            .resize_with(len, || [const { AtomicU32::new(0) }; 4]);
     }
 
     /// Moves the tetrahedra apart, in their order, so that they are spread evenly over `len` slots: each
@@ -69,35 +77,37 @@ impl Cells {
         // From the last one down: none is overwritten before it has moved.
         for slot in (0..old as u32).rev() {
             let from = TetId(slot);
-            let mark = *self.marks[from.index()].get_mut();
-            *self.marks[from.index()].get_mut() = VACANT;
+            let mark = self.mark(from);
+            let corners = self.corners(from);
+            self.set_mark(from, VACANT);
             if mark == AT_REST {
                 let to = TetId(place(slot));
                 let twins = self.twins(from);
                 let renamed =
                     |twin: FacetId| FacetId::of(TetId(place(twin.tet().0)), twin.corner());
-                self.set(to, self.corners(from), twins.map(renamed));
-                *self.marks[to.index()].get_mut() = AT_REST;
+                self.set(to, corners, twins.map(renamed), AT_REST);
             }
         }
     }
 
     /// How many slots hold a tetrahedron.
     pub(super) fn count(&self) -> usize {
-        let marks = self.marks.iter();
-        marks.filter(|mark| mark.load(Relaxed) == AT_REST).count()
+        let slots = (0..self.len()).map(TetId::new);
+        slots.filter(|&slot| self.mark(slot) == AT_REST).count()
     }
 
     #[inline(always)]
     pub(super) fn corners(&self, tet: TetId) -> [VertexId; 4] {
         let corners = &self.corners[tet.index()];
-        four(|i| VertexId(corners[i].load(Relaxed)))
+        let vertex = |i: usize| corners[i].load(Relaxed);
+        [vertex(0) & VERTEX_BITS, vertex(1), vertex(2), vertex(3)].map(VertexId)
     }
 
     /// The vertex opposite a facet.
     #[inline(always)]
     pub(super) fn opposite(&self, facet: FacetId) -> VertexId {
-        VertexId(self.corners[facet.tet().index()][facet.corner()].load(Relaxed))
+        let word = self.corners[facet.tet().index()][facet.corner()].load(Relaxed);
+        VertexId(word & VERTEX_BITS)
     }
 
     #[inline(always)]
@@ -112,9 +122,12 @@ impl Cells {
     }
 
     #[inline(always)]
-    pub(super) fn set(&self, tet: TetId, corners: [VertexId; 4], twins: [FacetId; 4]) {
+    pub(super) fn set(&self, tet: TetId, corners: [VertexId; 4], twins: [FacetId; 4], mark: u8) {
         let slots = &self.corners[tet.index()];
-        four(|i| slots[i].store(corners[i].0, Relaxed));
+        slots[0].store(word(corners[0], mark), Relaxed);
+        slots[1].store(corners[1].0, Relaxed);
+        slots[2].store(corners[2].0, Relaxed);
+        slots[3].store(corners[3].0, Relaxed);
         let slots = &self.twins[tet.index()];
         four(|i| slots[i].store(twins[i].0, Relaxed));
     }
@@ -127,43 +140,49 @@ impl Cells {
     /// What was written to the tetrahedron before its mark was set is seen after this.
     #[inline(always)]
     pub(super) fn mark(&self, tet: TetId) -> u8 {
-        self.marks[tet.index()].load(SeqCst)
+        (self.corners[tet.index()][0].load(SeqCst) >> MARK_SHIFT) as u8
     }
 
-    #[inline(always)]
-    pub(super) fn is_vacant(&self, tet: TetId) -> bool {
-        self.marks[tet.index()].load(Relaxed) == VACANT
-    }
-
-    /// Sets a mark that only its owner may set; what was written before is seen by whoever reads it.
+    /// Sets a mark that nobody else may set at this time; what was written before is seen by whoever reads it.
     #[inline(always)]
     pub(super) fn set_mark(&self, tet: TetId, mark: u8) {
-        self.marks[tet.index()].store(mark, Release);
+        let first = &self.corners[tet.index()][0];
+        let vertex = VertexId(first.load(Relaxed) & VERTEX_BITS);
+        first.store(word(vertex, mark), Release);
     }
 
     /// Claims a tetrahedron at rest; false when it is another's, or vacant.
     #[inline(always)]
     pub(super) fn claim(&self, tet: TetId, mark: u8) -> bool {
-        self.marks[tet.index()]
-            .compare_exchange(AT_REST, mark, SeqCst, Relaxed)
-            .is_ok()
+        let first = &self.corners[tet.index()][0];
+        let vertex = first.load(Relaxed);
+        vertex >> MARK_SHIFT == u32::from(AT_REST)
+            && first
+                .compare_exchange(vertex, word(VertexId(vertex), mark), SeqCst, Relaxed)
+                .is_ok()
     }
 
-    /// The arrays as plain numbers, in place: corners, twins, and whether each slot is in use.
-    pub(super) fn into_plain(self) -> (Vec<[VertexId; 4]>, Vec<[FacetId; 4]>, Vec<bool>) {
-        let corners = self.corners.into_iter();
-        let twins = self.twins.into_iter();
-        let marks = self.marks.into_iter();
+    /// The arrays as plain numbers, in place: corners and twins. Slots without a tetrahedron have
+    /// [`VertexId::NONE`] as their first corner.
+    pub(super) fn into_plain(self) -> (Vec<[VertexId; 4]>, Vec<[FacetId; 4]>) {
+        let vertices = |corners: [AtomicU32; 4]| {
+            let [mut first, second, third, fourth] = corners.map(AtomicU32::into_inner);
+            if first >> MARK_SHIFT != u32::from(AT_REST) {
+                first = VertexId::NONE.0;
+            }
+            [first, second, third, fourth].map(VertexId)
+        };
+        let facets = |twins: [AtomicU32; 4]| twins.map(|twin| FacetId(twin.into_inner()));
         (
-            corners
-                .map(|four| four.map(|corner| VertexId(corner.into_inner())))
-                .collect(),
-            twins
-                .map(|four| four.map(|twin| FacetId(twin.into_inner())))
-                .collect(),
-            marks.map(|mark| mark.into_inner() == AT_REST).collect(),
+            self.corners.into_iter().map(vertices).collect(),
+            self.twins.into_iter().map(facets).collect(),
         )
     }
+}
+
+#[inline(always)]
+fn word(vertex: VertexId, mark: u8) -> u32 {
+    vertex.0 | u32::from(mark) << MARK_SHIFT
 }
 
 /// What `of` gives for 0 to 3. (`array::from_fn` and `map` are not surely inlined into functions that are

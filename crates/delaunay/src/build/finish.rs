@@ -4,6 +4,7 @@ use super::kernel::{INFINITE, Kernel};
 use crate::{FacetId, TetId, Tetrahedralization, id::facet_vertices};
 use glam::DVec3;
 use pellicle_geometry::VertexId;
+use rayon::prelude::*;
 
 impl Kernel {
     /// Puts the tetrahedra into an order that does not depend on how they came to be, and names the
@@ -20,32 +21,38 @@ impl Kernel {
         let vertices = self.points.len();
         let cells = self.cells;
         drop(self.points);
-        let (mut tets, mut twins, in_use) = cells.into_plain();
-        latest_first(&mut tets, &mut twins, &in_use);
-        let places = places(&tets, &in_use, vertices);
-        drop(in_use);
-        let caller = |vertex| match vertex {
-            INFINITE => Tetrahedralization::INFINITE,
-            VertexId(vertex) => VertexId(order[vertex as usize - 1]),
-        };
-        let moved =
-            |twin: FacetId| FacetId::of(TetId(places.of[twin.tet().index()]), twin.corner());
-        let (tets, twins) = rayon::join(
-            || places.apply(tets, |tet| tet.map(caller)),
-            || places.apply(twins, |twins| twins.map(moved)),
-        );
-        let finite = places.finite;
-        drop(places);
+        let (mut tets, mut twins) = cells.into_plain();
+        latest_first(&mut tets, &mut twins);
+        let Places {
+            mut of,
+            finite,
+            used,
+        } = places(&tets, vertices);
+        twins.par_iter_mut().for_each(|twins| {
+            *twins = twins.map(|twin| FacetId::of(TetId(of[twin.tet().index()]), twin.corner()));
+        });
+        arrange(&mut of, &mut tets, &mut twins);
+        drop(of);
+        tets.truncate(used);
+        twins.truncate(used);
+        tets.shrink_to_fit();
+        twins.shrink_to_fit();
+        tets.par_iter_mut().for_each(|tet| {
+            *tet = tet.map(|vertex| match vertex {
+                INFINITE => Tetrahedralization::INFINITE,
+                VertexId(vertex) => VertexId(order[vertex as usize - 1]),
+            });
+        });
         Tetrahedralization::from_arrays(points, tets, twins, finite, duplicates)
     }
 }
 
 /// Turns the tetrahedra such that the corner inserted last comes first and the least one last. Those that
 /// one thread made are so already.
-fn latest_first(tets: &mut [[VertexId; 4]], twins: &mut [[FacetId; 4]], in_use: &[bool]) {
+fn latest_first(tets: &mut [[VertexId; 4]], twins: &mut [[FacetId; 4]]) {
     for t in 0..tets.len() {
         let [a, b, c, d] = tets[t];
-        if !in_use[t] || (a > b && a > c && d < b && d < c) {
+        if a == UNUSED || (a > b && a > c && d < b && d < c) {
             continue;
         }
         let latest = (0..4).max_by_key(|&i| tets[t][i]).unwrap_or(0);
@@ -74,24 +81,28 @@ fn latest_first(tets: &mut [[VertexId; 4]], twins: &mut [[FacetId; 4]], in_use: 
     }
 }
 
-/// By slot the tetrahedron's place in the result; [`NOWHERE`] for slots not in use.
+/// By slot the tetrahedron's place in the result; those of slots without one come last.
 struct Places {
     of: Vec<u32>,
     /// How many places are finite tetrahedra'.
     finite: usize,
-    /// How many places there are.
+    /// How many are tetrahedra's.
     used: usize,
 }
 
-const NOWHERE: u32 = u32::MAX;
+/// No slot.
+const NONE: u32 = u32::MAX;
 
-fn places(tets: &[[VertexId; 4]], in_use: &[bool], vertices: usize) -> Places {
+/// The first corner of a slot without a tetrahedron.
+const UNUSED: VertexId = VertexId::NONE;
+
+fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
     // 1. By latest vertex, the list of its finite tetrahedra: the last one here, the one before in `of`.
-    let mut last = vec![NOWHERE; vertices];
-    let mut of = vec![NOWHERE; tets.len()];
+    let mut last = vec![NONE; vertices];
+    let mut of = vec![NONE; tets.len()];
     let mut infinite: Vec<u32> = Vec::new();
-    for (t, (tet, &in_use)) in tets.iter().zip(in_use).enumerate() {
-        if !in_use {
+    for (t, tet) in tets.iter().enumerate() {
+        if tet[0] == UNUSED {
             continue;
         }
         if tet[3] == INFINITE {
@@ -106,7 +117,7 @@ fn places(tets: &[[VertexId; 4]], in_use: &[bool], vertices: usize) -> Places {
     let mut used = 0;
     let mut list: Vec<(u64, u32)> = Vec::new();
     for mut t in last {
-        while t != NOWHERE {
+        while t != NONE {
             let [_, second, _, least] = tets[t as usize];
             list.push((u64::from(least.0) << 32 | u64::from(second.0), t));
             t = of[t as usize];
@@ -119,60 +130,58 @@ fn places(tets: &[[VertexId; 4]], in_use: &[bool], vertices: usize) -> Places {
     }
     let finite = used as usize;
     infinite.sort_unstable_by_key(|&t| tets[t as usize]);
-    for t in infinite {
+    let unused = (0..tets.len() as u32).filter(|&t| tets[t as usize][0] == UNUSED);
+    let slots_used = finite + infinite.len();
+    for t in infinite.into_iter().chain(unused) {
         of[t as usize] = used;
         used += 1;
     }
     Places {
         of,
         finite,
-        used: used as usize,
+        used: slots_used,
     }
 }
 
-impl Places {
-    /// Moves each item to its place, changed by `renamed`, and drops those of slots not in use.
-    ///
-    /// Slots and places run about alike, so items move little. Block by block the old items are read, and
-    /// written at once where the old ones have been read already; those that go further on wait in blocks
-    /// of their own, of which there are few at a time. Infinite ones, which all go to the end, would fill
-    /// such blocks sparsely; they wait in a list.
-    fn apply<T: Copy>(&self, mut items: Vec<T>, renamed: impl Fn(T) -> T) -> Vec<T> {
-        const BLOCK: usize = 1024;
-        let blocks = items.len().div_ceil(BLOCK);
-        let mut waiting: Vec<Vec<T>> = (0..blocks).map(|_| Vec::new()).collect();
-        let mut last: Vec<(u32, T)> = Vec::new();
-        let mut old: Vec<T> = Vec::with_capacity(BLOCK);
-        for block in 0..blocks {
-            let start = block * BLOCK;
-            let end = (start + BLOCK).min(items.len());
-            old.clear();
-            old.extend_from_slice(&items[start..end]);
-            let arrived = std::mem::take(&mut waiting[block]);
-            items[start..start + arrived.len()].copy_from_slice(&arrived);
-            for (&item, &place) in old.iter().zip(&self.of[start..end]) {
-                if place == NOWHERE {
-                    continue;
-                }
-                let (at, item) = (place as usize, renamed(item));
-                if at < end {
-                    items[at] = item;
-                } else if at < self.finite {
-                    let there = &mut waiting[at / BLOCK];
-                    if there.is_empty() {
-                        there.resize(BLOCK.min(items.len() - at / BLOCK * BLOCK), item);
-                    }
-                    there[at % BLOCK] = item;
-                } else {
-                    last.push((place, item));
-                }
+/// Moves the tetrahedra, with their places, to these places.
+///
+/// Slots and places run about alike, but swapping along the cycles of the permutation would jump through all of
+/// memory all the same. So each goes into the right block first, to where the blocks' next free places are,
+/// which are few enough to stay in the cache; then to its place in the block (McIlroy et al. 1993).
+fn arrange(of: &mut [u32], tets: &mut [[VertexId; 4]], twins: &mut [[FacetId; 4]]) {
+    const BLOCK: u32 = 1 << 15;
+    let count = of.len() as u32;
+    let mut swap = |of: &mut [u32], one: u32, other: u32| {
+        let (one, other) = (one as usize, other as usize);
+        of.swap(one, other);
+        tets.swap(one, other);
+        twins.swap(one, other);
+    };
+    let blocks = count.div_ceil(BLOCK);
+    let mut next: Vec<u32> = (0..blocks).map(|block| block * BLOCK).collect();
+    for block in 0..blocks {
+        let end = (block + 1).saturating_mul(BLOCK).min(count);
+        let mut slot = next[block as usize];
+        while slot < end {
+            let home = of[slot as usize] / BLOCK;
+            if home == block {
+                slot += 1;
+                continue;
+            }
+            // Those before `next` are home; so may be the next ones.
+            let place = &mut next[home as usize];
+            while of[*place as usize] / BLOCK == home {
+                *place += 1;
+            }
+            let place = *place;
+            next[home as usize] += 1;
+            swap(of, slot, place);
+        }
+        for slot in block * BLOCK..end {
+            while of[slot as usize] != slot {
+                let place = of[slot as usize];
+                swap(of, slot, place);
             }
         }
-        items.truncate(self.used);
-        for (place, item) in last {
-            items[place as usize] = item;
-        }
-        items.shrink_to_fit();
-        items
     }
 }

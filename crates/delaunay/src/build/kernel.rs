@@ -93,8 +93,7 @@ impl Kernel {
             self.cells.grow(5);
         }
         for t in 0..5 {
-            self.cells.set(TetId::new(t), tets[t], twins[t]);
-            self.cells.set_mark(TetId::new(t), AT_REST);
+            self.cells.set(TetId::new(t), tets[t], twins[t], AT_REST);
         }
     }
 

@@ -17,6 +17,7 @@ mod worker;
 pub(crate) mod tests;
 
 use crate::{Error, InsertionOrder, Options, Tetrahedralization};
+pub(crate) use cells::MOST_VERTICES;
 pub(crate) use first::collinear;
 pub(crate) use kernel::INFINITE;
 use kernel::Kernel;
@@ -65,10 +66,10 @@ pub(crate) fn tetrahedralize<'a>(
 }
 
 fn check(points: &[DVec3]) -> Result<(), Error> {
-    if points.len() >= u32::MAX as usize {
+    if points.len() >= MOST_VERTICES {
         return Err(Error::TooMany {
             of: "points",
-            limit: u32::MAX as usize - 1,
+            limit: MOST_VERTICES - 1,
         });
     }
     match first_not_finite(points) {

@@ -21,6 +21,7 @@
 //! Walks read without any claim and may see anything; what they find is claimed and then tested.
 
 use super::{
+    cells::KEPT,
     kernel::Kernel,
     worker::{Outcome, Worker},
 };
@@ -42,8 +43,8 @@ const LEAST_SHARED_ROUND: usize = 8192;
 /// How often a worker tries again what others were in the way of, before it leaves it to the end.
 const ATTEMPTS: usize = 4;
 
-/// The workers have marks of eight bits.
-const MOST_WORKERS: usize = 64;
+/// As many as there are marks for.
+const MOST_WORKERS: usize = KEPT as usize - 1;
 
 /// Inserts the points after the first four, round by round.
 pub(super) fn insert_all(kernel: &mut Kernel, progress: &dyn Progress) -> Result<(), Error> {

@@ -131,8 +131,7 @@ impl Stepwise {
         let cells = &mut self.kernel.cells;
         cells.grow(tets.len());
         for (t, (corners, twins)) in tets.into_iter().zip(twins).enumerate() {
-            cells.set(TetId::new(t), corners, twins);
-            cells.set_mark(TetId::new(t), AT_REST);
+            cells.set(TetId::new(t), corners, twins, AT_REST);
         }
         self.set_bounds(bounds);
     }
@@ -272,8 +271,7 @@ impl Stepwise {
         }
         let tet = self.worker.kept.pop().expect("a slot is reserved");
         let cells = &self.kernel.cells;
-        cells.set(tet, corners, [FacetId::NONE; 4]);
-        cells.set_mark(tet, AT_REST);
+        cells.set(tet, corners, [FacetId::NONE; 4], AT_REST);
         self.worker.recent = tet;
         Ok(tet)
     }

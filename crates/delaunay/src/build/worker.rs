@@ -2,7 +2,7 @@
 
 use super::{
     cavity::Cavity,
-    cells::{AT_REST, KEPT},
+    cells::{AT_REST, KEPT, VACANT},
     conflict::Query,
     kernel::Kernel,
 };
@@ -108,7 +108,7 @@ impl Worker {
                 }
             }
             for slot in self.slots.by_ref().map(TetId::new) {
-                if kernel.cells.is_vacant(slot) {
+                if kernel.cells.mark(slot) == VACANT {
                     kernel.cells.set_mark(slot, KEPT);
                     self.kept.push(slot);
                     if self.kept.len() == slots {

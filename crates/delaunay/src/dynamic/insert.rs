@@ -4,8 +4,8 @@ use super::{DynamicTetrahedralization, Flat, inner};
 use crate::{Error, Location, Options, TetId, locate::locate, tetrahedralize};
 use pellicle_geometry::{DVec3, VertexId};
 
-/// Ids are below `u32::MAX`, in the kernel too, where they are one higher.
-const MOST_VERTICES: usize = u32::MAX as usize - 1;
+/// In the kernel ids are one higher.
+const MOST_VERTICES: usize = crate::build::MOST_VERTICES - 1;
 
 impl DynamicTetrahedralization {
     /// Inserts a point, anywhere, and returns its vertex: the one that is there already if it equals one
