@@ -74,7 +74,7 @@ pub fn vectorized<W: Vectorized>(work: W) -> W::Output {
 
 /// An array in place of a register.
 #[derive(Clone, Copy)]
-struct Plain;
+pub(crate) struct Plain;
 
 #[inline(always)]
 fn zip([a, b, c, d]: [f64; 4], [e, f, g, h]: [f64; 4], of: impl Fn(f64, f64) -> f64) -> [f64; 4] {

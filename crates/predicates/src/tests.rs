@@ -7,6 +7,7 @@ mod coverage;
 mod distance;
 mod implicit;
 mod inputs;
+mod lanes;
 mod oracle;
 mod permutation;
 mod power;

@@ -1,0 +1,122 @@
+//! Four tests at once, and filters that know of a lattice.
+
+use super::{
+    config,
+    inputs::{points, space},
+};
+use crate::{
+    Sign, StaticFilter, insphere,
+    lanes::{FourVerdicts, Plain, Registers, Vectorized, vectorized},
+    lifted, orient3d,
+};
+use glam::DVec3;
+use proptest::prelude::*;
+
+/// The corners of the neighbours, as the table in `lanes` has them.
+const NEIGHBORS: [[usize; 3]; 4] = [[3, 1, 2], [2, 0, 3], [3, 0, 1], [1, 0, 2]];
+
+struct Across {
+    filter: StaticFilter,
+    corners: [DVec3; 4],
+    opposite: [DVec3; 4],
+    p: DVec3,
+    asked: u8,
+}
+
+impl Vectorized for Across {
+    type Output = FourVerdicts;
+
+    #[inline(always)]
+    fn run<R: Registers>(self, registers: R) -> FourVerdicts {
+        let Self {
+            filter,
+            corners,
+            opposite,
+            p,
+            asked,
+        } = self;
+        filter.insphere_across(registers, corners, opposite, p, asked)
+    }
+}
+
+/// The largest power of two of which all coordinates are multiples, found by trying; 1 for none but zeros.
+fn unit(points: &[DVec3]) -> f64 {
+    let coordinates = || points.iter().flat_map(|p| p.to_array());
+    if coordinates().all(|c| c == 0.0) {
+        return 1.0;
+    }
+    let powers = (-1074..=1023)
+        .rev()
+        .map(|e| 2_f64.powi(e / 2) * 2_f64.powi(e - e / 2));
+    powers
+        .into_iter()
+        .find(|unit| coordinates().all(|c| c % unit == 0.0))
+        .expect("all doubles are multiples of the least one")
+}
+
+fn filter(points: &[DVec3]) -> StaticFilter {
+    let min = points.iter().copied().reduce(DVec3::min);
+    let max = points.iter().copied().reduce(DVec3::max);
+    StaticFilter::from_bounds(min.expect("points"), max.expect("points")).with_unit(unit(points))
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn four_verdicts_are_right_and_the_same_on_all_registers(
+        five in points(),
+        others in points(),
+        lane in 0..4_usize,
+        asked in 0..16_u8,
+    ) {
+        let [a, b, c, d, e] = space(&five);
+        let [q, ..]: [DVec3; 5] = space(&others);
+        // In one lane the five points that are degenerate together.
+        let mut corners = [a, b, c, a];
+        corners[3] = corners[lane];
+        corners[lane] = q;
+        let opposite = [d; 4];
+        let filter = filter(&[a, b, c, d, e, q]);
+        let across = |asked| Across { filter, corners, opposite, p: e, asked };
+        let verdicts = vectorized(across(asked));
+        prop_assert_eq!(verdicts, across(asked).run(Plain));
+        for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
+            let [x, y, z] = neighbor.map(|corner| corners[corner]);
+            let truth = insphere(x, y, z, opposite[i], e);
+            let bit = |set: u8| set >> i & 1 == 1;
+            prop_assert!(!bit(verdicts.inside) || truth == Sign::Positive);
+            prop_assert!(!bit(verdicts.outside) || truth == Sign::Negative);
+            prop_assert!(!bit(verdicts.on) || truth == Sign::Zero);
+        }
+    }
+
+    #[test]
+    fn a_filter_that_knows_the_lattice_is_exact(five in points()) {
+        let [a, b, c, d, e] = space(&five);
+        let filter = filter(&[a, b, c, d, e]);
+        prop_assert_eq!(filter.orient3d(a, b, c, d), orient3d(a, b, c, d));
+        prop_assert_eq!(filter.insphere(a, b, c, d, e), insphere(a, b, c, d, e));
+        if orient3d(a, b, c, d) == Sign::Positive {
+            prop_assert_eq!(
+                filter.insphere_perturbed(a, b, c, d, e),
+                lifted::insphere(a, b, c, d, e)
+            );
+        }
+    }
+}
+
+#[test]
+fn on_a_lattice_ties_are_recognised_in_all_lanes() {
+    // The corners of a cube about the centre of the other: each neighbour has all five on one sphere.
+    let corner = |i: u8| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+    let corners = [0, 1, 2, 4].map(corner);
+    let across = Across {
+        filter: StaticFilter::from_bounds(DVec3::ZERO, DVec3::splat(1000.0)).with_unit(1.0),
+        corners,
+        opposite: [7, 6, 5, 3].map(corner),
+        p: corner(7),
+        asked: 0b1110,
+    };
+    assert_eq!(vectorized(across).on, 0b1110);
+}
