@@ -22,7 +22,7 @@ use pellicle_predicates::lifted;
 ///
 /// Of equal points the heaviest stands for all. One as heavy is its duplicate, a lighter one is hidden. Weights
 /// may have any sign and magnitude; adding the same number to all of them changes nothing. Time and memory are
-/// those of [`tetrahedralize`](crate::tetrahedralize), plus eight bytes a point; one thread.
+/// those of [`tetrahedralize`](crate::tetrahedralize), plus eight bytes a point.
 ///
 /// # Errors
 ///

@@ -595,6 +595,31 @@ fn many_points_of_random_weights() {
     );
 }
 
+/// Enough points that threads share rounds, and meet hidden points while they do.
+#[test]
+fn threads_do_not_matter() {
+    let mut next = sequence(7);
+    for spread in [3e-4, 3e-2] {
+        let points: Vec<DVec3> = (0..40_000)
+            .map(|_| DVec3::new(next(), next(), next()))
+            .collect();
+        let weights: Vec<f64> = points.iter().map(|_| spread * next()).collect();
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+            let build = || tetrahedralize_weighted(&points, &weights, &Options::default()).unwrap();
+            pool.build().unwrap().install(build)
+        };
+        let one = with(1);
+        assert_eq!(one.validate(), []);
+        assert!(!one.hidden().is_empty());
+        for threads in [2, 4] {
+            let several = with(threads);
+            assert!(several.tets() == one.tets() && several.twins() == one.twins());
+            assert_eq!(several.hidden(), one.hidden());
+        }
+    }
+}
+
 /// Balls of very different sizes, touching and overlapping, as atoms are.
 #[test]
 fn balls_on_a_lattice() {
