@@ -60,6 +60,20 @@
 //! # Ok::<(), pellicle::delaunay::Error>(())
 //! ```
 //!
+//! Points may also come and go one by one: [`delaunay::DynamicTetrahedralization`]. Point location, nearest vertices,
+//! circulators and Voronoi cells are in [`delaunay::guide`].
+//!
+//! ```
+//! use pellicle::prelude::*;
+//!
+//! let mut tetrahedra = delaunay::DynamicTetrahedralization::of_points(&[DVec3::X, DVec3::Y, DVec3::Z])?;
+//! let origin = tetrahedra.insert(DVec3::ZERO)?;
+//! assert_eq!(tetrahedra.nearest_vertex(DVec3::splat(0.1), None), Some(origin));
+//! tetrahedra.remove(origin)?;
+//! assert_eq!(tetrahedra.finite_tets().count(), 0);
+//! # Ok::<(), pellicle::delaunay::Error>(())
+//! ```
+//!
 //! ## Reconstruct a closed surface, or normals
 //!
 //! Cocone leaves open what the points do not support; Tight Cocone always returns the boundary of a solid.

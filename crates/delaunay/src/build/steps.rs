@@ -27,6 +27,8 @@ pub(crate) struct Stepwise {
     /// The tetrahedra that are to leave.
     hole: Vec<TetId>,
     link: Vec<LinkFacet>,
+    /// How many slots for tetrahedra there may be; lower in tests.
+    pub(crate) most_tets: usize,
 }
 
 /// A facet of the link of a vertex: opposite it, in one of its tetrahedra.
@@ -54,6 +56,7 @@ impl Stepwise {
             worker: Worker::new(0, 1),
             hole: Vec::new(),
             link: Vec::new(),
+            most_tets: MOST_TETS,
         }
     }
 
@@ -186,7 +189,7 @@ impl Stepwise {
     fn fill_cavity(&mut self, vertex: VertexId) -> Result<(), Error> {
         let growth = self.worker.cavity.growth();
         while !self.worker.reserve(&self.kernel, growth) {
-            if let Err(error) = self.kernel.grow() {
+            if let Err(error) = self.grow() {
                 self.worker.release(&self.kernel);
                 return Err(error);
             }
@@ -267,7 +270,7 @@ impl Stepwise {
     /// Adds a tetrahedron that is not joined to anything yet.
     pub(crate) fn place(&mut self, corners: [VertexId; 4]) -> Result<TetId, Error> {
         while !self.worker.reserve(&self.kernel, 1) {
-            self.kernel.grow()?;
+            self.grow()?;
         }
         let tet = self.worker.kept.pop().expect("a slot is reserved");
         let cells = &self.kernel.cells;
@@ -291,14 +294,26 @@ impl Stepwise {
 
     /// Whether there is room for tetrahedra that come when others leave.
     fn check_room(&self, leave: usize, come: usize) -> Result<(), Error> {
-        let unused = MOST_TETS - self.tet_slots();
-        if come > self.worker.kept.len() + leave + unused {
-            return Err(Error::TooMany {
-                of: "tetrahedra",
-                limit: MOST_TETS,
-            });
+        if self.tet_slots() + come > self.most_tets + self.worker.kept.len() + leave {
+            return Err(self.too_many());
         }
         Ok(())
+    }
+
+    /// Makes new slots.
+    #[cold]
+    fn grow(&mut self) -> Result<(), Error> {
+        if self.tet_slots() >= self.most_tets {
+            return Err(self.too_many());
+        }
+        self.kernel.grow()
+    }
+
+    fn too_many(&self) -> Error {
+        Error::TooMany {
+            of: "tetrahedra",
+            limit: self.most_tets,
+        }
     }
 }
 

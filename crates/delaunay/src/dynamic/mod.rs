@@ -30,8 +30,8 @@ use pellicle_geometry::{Aabb, DVec3, VertexId};
 /// is none, and [`dimension`](Self::dimension) is less than 3.
 ///
 /// For points that do not change [`tetrahedralize`](crate::tetrahedralize) is faster and takes less memory.
-/// Here each vertex takes 28 bytes and each tetrahedron 33, those that were removed included until their
-/// room is used again; there is half a megabyte of working storage.
+/// Here each vertex takes about 32 bytes and each tetrahedron 33, those that were removed included until
+/// their room is used again; there is half a megabyte of working storage.
 ///
 /// ```
 /// use pellicle_delaunay::DynamicTetrahedralization;

@@ -271,6 +271,11 @@ fn a_hub_with_hundreds_of_neighbors_leaves_and_comes_back() {
     let hub = DVec3::new(1e-3, 2e-3, 3e-3);
     let mut watched = watched(rim.chain([DVec3::Z, -DVec3::Z, hub]));
     assert!(watched.dynamic.neighbors(VertexId(602)).len() > 256);
+    let mut around: Vec<TetId> = watched.dynamic.around_vertex(VertexId(602)).collect();
+    around.sort_unstable();
+    let holding = watched.dynamic.tets();
+    let holding = holding.filter(|&tet| watched.dynamic.tet(tet).contains(&VertexId(602)));
+    assert_eq!(around, holding.collect::<Vec<_>>());
     watched.remove(602);
     watched.check();
     watched.insert(hub, None);
@@ -335,6 +340,48 @@ fn a_thousand_points_come_and_go_without_growth() {
     watched.check();
     assert!(watched.dynamic.kernel.tet_slots() < slots + slots / 10);
     assert_eq!(watched.dynamic.incident.len(), 1000);
+}
+
+/// Too many tetrahedra are refused before anything has changed.
+#[test]
+fn a_step_for_which_there_is_no_room_changes_nothing() {
+    let mut watched = watched(lattice(3));
+    let most = watched.dynamic.kernel.tet_slots();
+    watched.dynamic.kernel.most_tets = most;
+    let refused = |limit| Error::TooMany {
+        of: "tetrahedra",
+        limit,
+    };
+
+    // Insertions, until there is no room.
+    let spiral = |i: i32| {
+        let (sin, cos) = f64::from(i).sin_cos();
+        DVec3::new(sin, cos, 0.003 + 0.01 * f64::from(i))
+    };
+    let full = (0..1000).find(|&i| watched.dynamic.insert(spiral(i)) == Err(refused(most)));
+    let full = full.expect("there is room for no thousand points");
+    for vertex in watched.dynamic.vertices().collect::<Vec<_>>() {
+        let point = watched.dynamic.point(vertex).unwrap();
+        watched.expected.insert(vertex, point);
+    }
+    assert_eq!(watched.expected.len(), 27 + full as usize);
+    watched.check();
+    assert_eq!(watched.dynamic.insert(spiral(full)), Err(refused(most)));
+    watched.check();
+
+    // No removal takes half of them away.
+    let fewer = watched.dynamic.tets().count() / 2;
+    watched.dynamic.kernel.most_tets = fewer;
+    for vertex in watched.dynamic.vertices().collect::<Vec<_>>() {
+        assert_eq!(watched.dynamic.remove(vertex), Err(refused(fewer)));
+    }
+    watched.check();
+
+    // And what was refused works where there is room.
+    watched.dynamic.kernel.most_tets = 2 * most + 1000;
+    watched.insert(spiral(full), None);
+    watched.remove(0);
+    watched.check();
 }
 
 #[test]

@@ -76,11 +76,16 @@ fn check<T: Connectivity>(among: &T, tets: &[TetId], p: DVec3, hint: Option<Vert
     let mut corners: Vec<VertexId> = tets.iter().flat_map(|&tet| of(tet)).collect();
     corners.sort_unstable();
     corners.dedup();
-    let nearest = corners.into_iter().min_by(|&one, &other| {
-        let (one, other) = (among.position(one), among.position(other));
+    let nearest = nearest_of(corners.iter().map(|&v| (v, among.position(v))), p);
+    assert_eq!(nearest_vertex(among, p, hint), nearest, "{p} from {hint:?}");
+}
+
+/// The nearest vertex, by rationals; of several the lexicographically lowest.
+fn nearest_of(vertices: impl Iterator<Item = (VertexId, DVec3)>, p: DVec3) -> Option<VertexId> {
+    let nearest = vertices.min_by(|&(_, one), &(_, other)| {
         (distance(p, one).cmp(&distance(p, other))).then_with(|| lexicographic(one, other))
     });
-    assert_eq!(nearest_vertex(among, p, hint), nearest, "{p} from {hint:?}");
+    nearest.map(|(vertex, _)| vertex)
 }
 
 /// Points to ask for: what is there, between it, on and off its lattice, far away.
@@ -133,6 +138,12 @@ proptest! {
         }
         let tets: Vec<TetId> = dynamic.finite_tets().collect();
         if tets.is_empty() {
+            for (question, hint) in questions.into_iter().filter(|_| !points.is_empty()) {
+                let (p, hint) = (answerable(&points, question), hint.map(VertexId));
+                let vertices = dynamic.vertices().map(|v| (v, dynamic.position(v)));
+                prop_assert_eq!(dynamic.nearest_vertex(p, hint), nearest_of(vertices, p));
+                prop_assert_eq!(dynamic.locate(p, hint), None);
+            }
             return Ok(());
         }
         for (question, hint) in questions {
@@ -172,6 +183,19 @@ fn every_kind_of_location_in_a_lattice() {
         }
     }
     assert!(kinds.iter().all(|&count| count > 50), "{kinds:?}");
+}
+
+#[test]
+fn the_nearest_vertex_of_points_in_a_plane() {
+    let points: Vec<DVec3> = (0..25)
+        .map(|i| DVec3::new(f64::from(i % 5), f64::from(i / 5), 0.5))
+        .collect();
+    let dynamic = DynamicTetrahedralization::of_points(&points).unwrap();
+    for i in 0..11_i32.pow(2) {
+        let p = DVec3::new(f64::from(i % 11), f64::from(i / 11), 0.0) * 0.5;
+        let vertices = dynamic.vertices().map(|v| (v, dynamic.position(v)));
+        assert_eq!(dynamic.nearest_vertex(p, None), nearest_of(vertices, p));
+    }
 }
 
 #[test]
