@@ -23,6 +23,10 @@ pub(crate) const INFINITE: VertexId = VertexId(0);
 /// Facet ids leave 30 bits for tetrahedra.
 pub(super) const MOST_TETS: usize = 1 << 30;
 
+/// The part of the tetrahedra to expect that are sure to come: grids end with fewer a point than their subsets.
+/// For the others room is made when they come.
+const LEAST_SHARE: f64 = 0.875;
+
 pub(super) struct Kernel {
     /// By vertex; the first stands for infinity and decides nothing.
     pub(super) points: Vec<DVec3>,
@@ -104,7 +108,7 @@ impl Kernel {
     /// tetrahedra come to lie among those of the rounds before: neighbours in space stay neighbours in
     /// memory, and an insertion touches few pages.
     pub(super) fn spread(&mut self, factor: f64, workers: usize) {
-        let wanted = (self.cells.count() as f64 * factor) as usize;
+        let wanted = (self.cells.count() as f64 * factor * LEAST_SHARE) as usize;
         self.cells.spread(wanted.min(MOST_TETS));
         self.regions = Region::divide(0..self.cells.len(), workers);
     }
