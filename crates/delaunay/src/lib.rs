@@ -69,7 +69,8 @@ use pellicle_geometry::{DVec3, Progress};
 ///
 /// The points are neither moved nor changed; equal points count once, under the lowest of their ids.
 /// Expected O(n log n) for points in a volume and for generic samples of surfaces, O(n²) at worst; about
-/// 42 bytes a tetrahedron at the peak, the points included.
+/// 38 bytes a tetrahedron at the peak, the caller's points not counted. Works on the threads of the current
+/// `rayon` pool; the result does not depend on their number.
 ///
 /// # Errors
 ///
