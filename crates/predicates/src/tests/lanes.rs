@@ -120,3 +120,38 @@ fn on_a_lattice_ties_are_recognised_in_all_lanes() {
     };
     assert_eq!(vectorized(across).on, 0b1110);
 }
+
+#[test]
+fn small_determinants_on_a_lattice_are_no_ties() {
+    // (0, x, y, d) has volume 1/6, so the determinant is minus the power of the point with respect to the sphere:
+    // x² − x + y² − y + z² − K z with K = p² − p + q² − q + 1 for d = (p, q, 1).
+    let (p, q) = (20, 20);
+    let k = p * p - p + q * q - q + 1;
+    let corners = [
+        DVec3::ZERO,
+        DVec3::X,
+        DVec3::Y,
+        DVec3::new(f64::from(p), f64::from(q), 1.0),
+    ];
+    let [a, b, c, d] = corners;
+    // In this box the bound on the error is about ten.
+    let filter = StaticFilter::from_bounds(DVec3::ZERO, DVec3::splat(600.0)).with_unit(1.0);
+    let mut found = 0;
+    for z in 300..310 {
+        for (x, y) in (0..600).flat_map(|x| (0..x).map(move |y| (x, y))) {
+            let power: i32 = x * x - x + y * y - y + z * z - k * z;
+            if power != 0 && power.abs() <= 8 {
+                let e = DVec3::new(f64::from(x), f64::from(y), f64::from(z));
+                let truth = if power < 0 {
+                    Sign::Positive
+                } else {
+                    Sign::Negative
+                };
+                assert_eq!(insphere(a, b, c, d, e), truth);
+                assert_eq!(filter.insphere_perturbed(a, b, c, d, e), truth, "{e}");
+                found += 1;
+            }
+        }
+    }
+    assert!(found > 20, "{found}");
+}
