@@ -1,9 +1,10 @@
-//! Orchestration: `cargo xtask ci`, `tidy`, `campaign`, `bench`. Uses no crate of the workspace.
+//! Orchestration: `cargo xtask ci`, `tidy`, `campaign`, `bench`, `figures`. Uses no crate of the workspace.
 #![forbid(unsafe_code)]
 
 mod bench;
 mod campaign;
 mod ci;
+mod figures;
 mod picture;
 mod readme;
 mod tidy;
@@ -20,6 +21,8 @@ usage: cargo xtask <task>
   ci      format, clippy, rustdoc, tidy, and the test command of README.md
   tidy    the checks of the house: floors, printing, lengths, citations, paths, fixtures
   campaign [CASES [SEED]]           the predicates against exact arithmetic: 10⁷ cases, ten minutes of one core
+  figures [--quick] [--only NAME,…]  what the papers show: docs/figures/ and docs/REPRODUCTION.md. --quick writes nothing, and
+                                    compares the numbers with the stored ones, as the tests do; --list tells the names
   picture the README's commands, and the picture that they make
   bench --table                     every fixture reconstructed: docs/benchmarks/fixtures.md
   bench --delaunay [OPTION …] [INPUT …]
@@ -46,6 +49,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["tidy"] => tidy::run(&root()),
         ["picture"] => picture::run(&root()),
+        ["figures", arguments @ ..] => figures::run(&root(), arguments),
         ["campaign", arguments @ ..] => campaign::run(&root(), arguments),
         ["bench", arguments @ ..] => bench::run(&root(), arguments),
         _ => {

@@ -44,8 +44,8 @@ const TOP_LEVEL: [&str; 11] = [
     "xtask",
 ];
 
-/// Crates that are programs: they may print.
-const PROGRAMS: [&str; 2] = ["crates/cli/", "xtask/"];
+/// Crates and files that are programs: they may print.
+const PROGRAMS: [&str; 3] = ["crates/cli/", "crates/figures/src/main.rs", "xtask/"];
 
 /// What a path is, by where it stands.
 pub fn kind(name: &str) -> Kind {
@@ -149,6 +149,8 @@ mod tests {
             ("crates/mesh/src/lib.rs", library),
             ("crates/cli/src/main.rs", program),
             ("xtask/src/main.rs", program),
+            ("crates/figures/src/main.rs", program),
+            ("crates/figures/src/lib.rs", library),
             ("crates/mesh/src/soup/tests.rs", Kind::TestSource),
             ("crates/mesh/tests/all.rs", Kind::TestSource),
             ("crates/mesh/examples/time.rs", Kind::TestSource),
