@@ -22,7 +22,8 @@ usage: cargo xtask <task>
   tidy    the checks of the house: floors, printing, lengths, citations, paths, fixtures
   campaign [CASES [SEED]]           the predicates against exact arithmetic: 10⁷ cases, ten minutes of one core
   figures [--quick] [--only NAME,…]  what the papers show: docs/figures/ and docs/REPRODUCTION.md. --quick writes nothing, and
-                                    compares the numbers with the stored ones, as the tests do; --list tells the names
+                                    compares the numbers with the stored ones, as the tests do; --list tells the names;
+                                    --page makes only the page anew, after a merge
   picture the README's commands, and the picture that they make
   bench --table                     every fixture reconstructed: docs/benchmarks/fixtures.md
   bench --delaunay [OPTION …] [INPUT …]

@@ -7,7 +7,7 @@ use pellicle_figures::store::{self, Outcome, Stored};
 use pellicle_figures::{Effort, Error, Figure, Made, Run, figures, page};
 use std::io::{IsTerminal as _, Write as _};
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
@@ -24,6 +24,9 @@ struct Arguments {
     /// Print the names, and make nothing.
     #[arg(long)]
     list: bool,
+    /// Make no figure, but the page anew from what is stored: after a merge.
+    #[arg(long)]
+    page: bool,
     /// Where the figures are kept, instead of docs/figures/; the page goes into the folder above.
     #[arg(long)]
     folder: Option<PathBuf>,
@@ -59,6 +62,10 @@ fn run(arguments: &Arguments) -> Result<usize, Error> {
         return Ok(0);
     }
     let folder = arguments.folder.clone().unwrap_or_else(store::folder);
+    if arguments.page {
+        write_page(&folder)?;
+        return Ok(0);
+    }
     let start = Instant::now();
     let mut bad = 0;
     for figure in &chosen {
@@ -92,7 +99,7 @@ fn chosen(only: &[String]) -> Result<Vec<&'static Figure>, Error> {
 }
 
 /// Makes the quick figure; `Err` has what differs from the stored numbers.
-fn compare(folder: &std::path::Path, figure: &Figure) -> Result<(), String> {
+fn compare(folder: &Path, figure: &Figure) -> Result<(), String> {
     let made = make(figure, Effort::Quick).map_err(|error| error.to_string())?;
     let outcome = Outcome::of(&made).map_err(|error| error.to_string())?;
     let stored = store::read(folder, figure).map_err(|error| error.to_string())?;
@@ -111,7 +118,7 @@ fn compare(folder: &std::path::Path, figure: &Figure) -> Result<(), String> {
 }
 
 /// Makes the quick and the full figure, stores both, and tells what is new in the numbers.
-fn write(folder: &std::path::Path, figure: &Figure) -> Result<(), String> {
+fn write(folder: &Path, figure: &Figure) -> Result<(), String> {
     let stored = store::read(folder, figure).map_err(|error| error.to_string())?;
     let quick = make(figure, Effort::Quick).map_err(|error| error.to_string())?;
     let full = make(figure, Effort::Full).map_err(|error| error.to_string())?;
@@ -125,7 +132,7 @@ fn write(folder: &std::path::Path, figure: &Figure) -> Result<(), String> {
 }
 
 /// The page of all figures, of those too that were not made now.
-fn write_page(folder: &std::path::Path) -> Result<(), Error> {
+fn write_page(folder: &Path) -> Result<(), Error> {
     let stored: Result<Vec<_>, Error> = figures()
         .map(|figure| Ok((figure, store::read(folder, figure)?)))
         .collect();

@@ -45,6 +45,8 @@ pub fn png(svg: &str) -> Result<Vec<u8>, Error> {
         [size.width(), size.height()].map(|length| (length * scale).round().max(1.0) as u32);
     let mut pixels = tiny_skia::Pixmap::new(width, height)
         .ok_or_else(|| Error::Svg(format!("{width} × {height} pixels")))?;
+    // The last row and column may be covered in part only.
+    pixels.fill(tiny_skia::Color::WHITE);
     let transform = tiny_skia::Transform::from_scale(scale, scale);
     resvg::render(&tree, transform, &mut pixels.as_mut());
     // Sheets are opaque.

@@ -39,7 +39,8 @@
 //! ([`StaticFilter`], [`StaticFilter2`]), a semi-static filter from the coordinate differences, exact 128-bit
 //! integers when the points lie on a coarse lattice, exact 384-bit integers when their magnitudes are
 //! alike, interval arithmetic, exact integers of any width. All but the last answer only what they are sure
-//! of, so the sign never depends on the stage. The feature `statistics` counts them ([`statistics`]).
+//! of, so the sign never depends on the stage. The feature `statistics` counts them ([`statistics`]); [`stages`] calls one
+//! alone.
 //!
 //! Coordinates must be finite: for NaN and infinity the sign means nothing (there is no panic).
 #![forbid(unsafe_code)]
@@ -62,6 +63,7 @@ pub mod implicit;
 pub mod lanes;
 pub mod lifted;
 pub mod sos;
+pub mod stages;
 pub mod statistics;
 pub mod world;
 

@@ -3,7 +3,7 @@
 //! p = (0.5 + x·u, 0.5 + y·u) with 0 ≤ x, y < 256 and u = 2⁻⁵³; q = (12, 12); r = (24, 24). The line through q and r is
 //! the diagonal, so that the true sign is that of y − x.
 
-use crate::sheet::{Color, Panel, Sampling, Style};
+use crate::sheet::{Panel, Sampling};
 use crate::{Error, Figure, Made, Number, Paper, Run, Sheet, Verdict};
 use pellicle::glam::DVec2;
 use pellicle::predicates::{Sign, orient2d};
@@ -60,14 +60,6 @@ fn truth(x: u32, y: u32) -> Sign {
     }
 }
 
-fn color(sign: Sign) -> Color {
-    match sign {
-        Sign::Positive => Color::BLUE,
-        Sign::Zero => Color::YELLOW,
-        Sign::Negative => Color::VERMILION,
-    }
-}
-
 /// What one formula says about all points.
 struct Signs {
     image: Image,
@@ -96,7 +88,7 @@ fn signs(formula: Formula) -> Signs {
             signs.wrong += u32::from(found != true_sign);
             signs.zero += u32::from(found == Sign::Zero);
             signs.opposite += u32::from(found == -true_sign && found != true_sign);
-            let [red, green, blue] = color(found).0;
+            let [red, green, blue] = super::color(found).0;
             signs.image.pixels.push([red, green, blue, 255]);
         }
     }
@@ -127,17 +119,7 @@ fn make(run: &Run<'_>) -> Result<Made, Error> {
         let size = DVec2::splat(300.0);
         let mut panel = Panel::pixels(size.x, size.y).caption(words);
         panel.picture(DVec2::ZERO, size, &signs.image, Sampling::Squares)?;
-        panel.legend(
-            DVec2::new(10.0, 10.0),
-            &[Sign::Positive, Sign::Zero, Sign::Negative].map(|sign| {
-                let words = match sign {
-                    Sign::Positive => "> 0",
-                    Sign::Zero => "= 0",
-                    Sign::Negative => "< 0",
-                };
-                (Style::fill(color(sign)).outlined(Color::WHITE, 1.0), words)
-            }),
-        );
+        panel.legend(DVec2::new(10.0, 10.0), &super::sign_legend());
         sheet.push(panel);
         numbers.push(Number::exactly(
             format!("wrong signs, {name}"),
@@ -212,6 +194,9 @@ mod tests {
         let exact = signs(Formula::Exact);
         assert_eq!((exact.wrong, exact.zero), (0, SIDE));
         // Upper left: y large, x small.
-        assert_eq!(exact.image.pixels[0][..3], color(Sign::Positive).0);
+        assert_eq!(
+            exact.image.pixels[0][..3],
+            super::super::color(Sign::Positive).0
+        );
     }
 }

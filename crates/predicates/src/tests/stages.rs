@@ -7,7 +7,7 @@ use super::{
 };
 use crate::{
     Sign, StaticFilter, StaticFilter2, determinant::Ring, exact, filter, fixed, integer::Integer,
-    interval::Interval, lattice, unfiltered,
+    interval::Interval, lattice, stages, statistics::Stage, unfiltered,
 };
 use dashu::integer::IBig;
 use glam::DVec3;
@@ -174,5 +174,31 @@ proptest! {
         }
         prop_assert_eq!(value.sub(&sum), Integer::ZERO);
         prop_assert_eq!(value, sum);
+    }
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    /// What a stage alone says is the predicate's sign, or nothing; the last always says it.
+    #[test]
+    fn public_stages_are_right(points in points()) {
+        let p @ [a, b, c, d, e] = space(&points);
+        let truth = oracle::sign(&oracle::insphere(p));
+        let orientation = oracle::sign(&oracle::orient3d([a, b, c, d]));
+        for stage in [
+            Stage::Static,
+            Stage::SemiStatic,
+            Stage::Lattice,
+            Stage::FixedWidth,
+            Stage::Interval,
+            Stage::AnyWidth,
+            Stage::Perturbation,
+        ] {
+            prop_assert!(right(stages::insphere(stage, a, b, c, d, e), truth), "{stage:?}");
+            prop_assert!(right(stages::orient3d(stage, a, b, c, d), orientation), "{stage:?}");
+        }
+        prop_assert_eq!(stages::insphere(Stage::AnyWidth, a, b, c, d, e), Some(truth));
+        prop_assert_eq!(stages::orient3d(Stage::AnyWidth, a, b, c, d), Some(orientation));
     }
 }
