@@ -41,6 +41,19 @@ fn wrong_usage_exits_with_2() {
         &["info", &kitten, "--progress", "maybe"],
         &["compare", &kitten],
         &["render", &kitten, "-o", "a.png", "--width", "-5"],
+        &["render", &kitten, "-o", "a.png", "--scalar", "beauty"],
+        &["render", &kitten, "-o", "a.png", "--scalar", "property:"],
+        &["render", &kitten, "-o", "a.png", "--range", "0,1"],
+        &[
+            "render", &kitten, "-o", "a.png", "--scalar", "x", "--range", "1,0",
+        ],
+        &[
+            "render", &kitten, "-o", "a.png", "--scalar", "x", "--range", "1",
+        ],
+        &[
+            "render", &kitten, "-o", "a.png", "--scalar", "x", "--range", "0,nan",
+        ],
+        &["render", &kitten, "-o", "a.png", "--edge-width", "-1"],
         &["evolve", &kitten, "-o", "a.ply", "--every", "5"],
         &["evolve", &kitten, "-o", "a.ply", "--grid", "3"],
         &["evolve", &kitten, "-o", "a.ply", "--sigma", "17"],

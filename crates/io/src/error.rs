@@ -181,6 +181,24 @@ pub enum Error {
         /// The time that was asked for.
         seconds: f64,
     },
+    /// A format whose vertices have no named properties was asked for one.
+    #[error("{}: {format} files have no named properties that are read here; PLY files have", .path.display())]
+    NoProperties {
+        /// The file.
+        path: PathBuf,
+        /// Its format.
+        format: Format,
+    },
+    /// The vertices of a file lack a property.
+    #[error("{}: the vertices have no number {name:?}; they have {known}", .path.display())]
+    NoSuchProperty {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        name: String,
+        /// What there is, separated by commas.
+        known: String,
+    },
     /// The observer asked to stop; nothing was written.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

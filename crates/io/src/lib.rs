@@ -47,6 +47,7 @@ pub use format::Format;
 pub use gltf::{AnimationOptions, AnimationWriter, Frame, write_animation};
 pub use read::{
     Data, Read, ReadMesh, ReadOptions, ReadPoints, read, read_from, read_mesh, read_points,
+    read_vertex_property,
 };
 pub use report::{Note, ReadReport, WriteReport};
 pub use volume::{VolumeFormat, write_tetrahedra};

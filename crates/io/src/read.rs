@@ -167,11 +167,51 @@ fn cloud(contents: Contents, path: &Path) -> Result<PointCloud, Error> {
     })
 }
 
+/// One number of each vertex of a PLY file, by its name in the header: a scalar property of any type but for lists.
+///
+/// In the order of the vertices that [`read`] gives. Numbers that are not finite come as they are. Linear time.
+///
+/// ```
+/// use pellicle_io::{ReadOptions, read_vertex_property};
+/// let folder = tempfile::tempdir()?;
+/// let path = folder.path().join("two.ply");
+/// std::fs::write(&path, "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n\
+///     property uchar quality\nend_header\n0 0 0 7\n1 0 0 8\n")?;
+/// let quality = read_vertex_property(&path, "quality", &ReadOptions::default())?;
+/// assert_eq!(quality, [7.0, 8.0]);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn read_vertex_property(
+    path: impl AsRef<Path>,
+    name: &str,
+    options: &ReadOptions,
+) -> Result<Vec<f64>, Error> {
+    let path = path.as_ref();
+    open(path, options, |source, format, _| match format {
+        Format::Ply => ply::read_property(source, name),
+        format => Err(Error::NoProperties {
+            path: path.to_owned(),
+            format,
+        }),
+    })
+}
+
 fn read_path(
     path: &Path,
     options: &ReadOptions,
     keep: Keep,
 ) -> Result<(Contents, ReadReport), Error> {
+    open(path, options, |source, format, base| {
+        parse(source, format, base, keep)
+    })
+}
+
+/// Opens a file, and has it read.
+fn open<T>(
+    path: &Path,
+    options: &ReadOptions,
+    parse: impl FnOnce(&mut Source, Format, Option<&Path>) -> Result<T, Error>,
+) -> Result<T, Error> {
     let open_error = |reason| Error::Io {
         path: path.to_owned(),
         action: "opened",
@@ -192,7 +232,7 @@ fn read_path(
     if metadata.is_file() {
         let mut input = BufReader::with_capacity(1 << 18, file);
         let mut source = Source::new(&mut input, path, metadata.len(), options.progress);
-        parse(&mut source, format, base, keep)
+        parse(&mut source, format, base)
     } else {
         // A pipe or device: its size is known at its end only, and some formats seek.
         let mut bytes = Vec::new();
@@ -201,7 +241,7 @@ fn read_path(
         let length = bytes.len() as u64;
         let mut input = Cursor::new(bytes);
         let mut source = Source::new(&mut input, path, length, options.progress);
-        parse(&mut source, format, base, keep)
+        parse(&mut source, format, base)
     }
 }
 

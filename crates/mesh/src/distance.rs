@@ -128,6 +128,44 @@ pub fn distances(
     })
 }
 
+/// The distance of each point from the nearest point of `to`, which is as for [`distances`]; NaN for a point that is not
+/// finite.
+///
+/// O((n + m) log m), on all threads; the result does not depend on how many.
+///
+/// ```
+/// use pellicle_geometry::DVec3;
+/// let sphere = pellicle_mesh::icosphere(3)?;
+/// let points = [DVec3::ZERO, 3.0 * sphere.positions()[0]];
+/// let found = pellicle_mesh::point_distances(&points, (&sphere).into(), &())?;
+/// assert!(found[0] > 0.98 && (found[1] - 2.0).abs() < 1e-12);
+/// # Ok::<(), pellicle_mesh::MeshError>(())
+/// ```
+pub fn point_distances(
+    points: &[DVec3],
+    to: MeshView,
+    progress: &impl Progress,
+) -> Result<Vec<f64>, MeshError> {
+    const CHUNK: usize = 1024;
+    let frame = Frame::of(points.iter().chain(to.positions));
+    let target =
+        Target::new(to, frame).ok_or(MeshError::NothingToMeasure { side: "the target" })?;
+    let done = AtomicU64::new(0);
+    let total = points.len() as u64;
+    let distance = |p: &DVec3| match p.is_finite() {
+        true => target.distance_squared(frame.apply(*p)).sqrt() * frame.scale,
+        false => f64::NAN,
+    };
+    let parts = points.par_chunks(CHUNK).map(|chunk| {
+        let found: Vec<f64> = chunk.iter().map(distance).collect();
+        let length = chunk.len() as u64;
+        let finished = done.fetch_add(length, Ordering::Relaxed) + length;
+        Cancelled::check(progress.step("distances", finished, total))?;
+        Ok(found)
+    });
+    Ok(parts.collect::<Result<Vec<_>, Cancelled>>()?.concat())
+}
+
 fn common_frame(a: MeshView, b: MeshView) -> Frame {
     Frame::of(a.positions.iter().chain(b.positions))
 }

@@ -16,7 +16,7 @@
 //!   are better. [`MeshEditor`] splits, collapses and flips single edges.
 //! - [`validate()`] lists all defects; [`summarize`] measures, and [`quality`] the shapes of
 //!   triangles alone; [`self_intersections`] finds triangles that meet
-//!   where they should not, exactly; [`compare`] measures distances,
+//!   where they should not, exactly; [`compare`] measures distances, [`point_distances`] those of single points,
 //!   [`SignedDistance`] those from a closed surface, exactly inside or outside.
 //!
 //! ```
@@ -53,9 +53,10 @@ mod soup;
 mod split;
 mod trimesh;
 mod validate;
+mod vertex_measures;
 mod winding;
 
-pub use distance::{Comparison, DistanceOptions, Distances, compare, distances};
+pub use distance::{Comparison, DistanceOptions, Distances, compare, distances, point_distances};
 pub use edge_table::{EdgeEntry, EdgeTable};
 pub use edit::{MeshEditor, Refusal};
 pub use error::MeshError;
@@ -73,4 +74,5 @@ pub use soup::{MeshView, TriangleSoup, VertexRemap};
 pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};
 pub use trimesh::TriMesh;
 pub use validate::{Defect, validate};
+pub use vertex_measures::{mean_curvatures, vertex_areas};
 pub use winding::winding_numbers;

@@ -2,10 +2,12 @@
 
 use crate::camera::{Camera, Projected, unit};
 use crate::frame::{Fitted, Frame};
-use crate::samples::Samples;
+use crate::marks::{self, Marks};
+use crate::paint::Painted;
+use crate::samples::{Bins, Samples, rows_between};
 use crate::shade::{Color, linear, lit};
-use crate::sheet::{Scene, View};
-use crate::{Error, Options};
+use crate::sheet::{Kind, Scene, View};
+use crate::{Drawing, Error, Options, Shading};
 use pellicle_geometry::{DVec3, first_not_finite};
 
 /// A disc's radius as a share of the estimated spacing: neighbours just touch.
@@ -18,25 +20,42 @@ const LARGEST: f64 = 0.03;
 /// A disc seen edge-on is drawn as if tilted so much towards the viewer.
 const LEAST_TILT: f64 = 0.2;
 
-/// A cloud inside the unit ball.
-pub struct CloudScene {
+/// A cloud inside the unit ball, and marks on it.
+pub struct CloudScene<'a> {
     positions: Vec<DVec3>,
     /// Of length one, or zero where there is none; empty where no point has one.
     normals: Vec<DVec3>,
     radius: f64,
     fitted: Fitted,
+    shading: Shading,
     front: Color,
     back: Color,
     ball: Color,
+    painted: Painted<'a>,
+    marks: Marks,
+}
+
+/// A cloud among the samples of a view.
+pub struct Placed {
+    discs: Vec<Disc>,
+    bins: Bins,
+    marks: marks::Placed,
+}
+
+/// A point among the samples.
+struct Disc {
+    center: (f64, f64),
+    height: f64,
+    /// In samples.
+    reach: f64,
+    /// In the ball's units.
+    radius: f64,
+    /// The normal in the viewer's frame, tilted towards the viewer.
+    tilted: Option<DVec3>,
 }
 
 /// Refuses what cannot be drawn.
 pub fn check(points: &[DVec3], normals: Option<&[DVec3]>) -> Result<(), Error> {
-    if points.len() > (u32::MAX - 8) as usize {
-        return Err(Error::TooMany {
-            count: points.len(),
-        });
-    }
     if let Some(vertex) = first_not_finite(points) {
         let position = points[vertex.index()];
         return Err(Error::NotFinite { vertex, position });
@@ -50,10 +69,17 @@ pub fn check(points: &[DVec3], normals: Option<&[DVec3]>) -> Result<(), Error> {
     }
 }
 
-impl CloudScene {
-    /// The scene of a cloud that [`check`] passed.
-    pub fn new(points: &[DVec3], normals: Option<&[DVec3]>, options: &Options) -> Self {
-        let (frame, fitted) = Frame::with_bounds(points.iter().copied(), options.bounds);
+impl<'a> CloudScene<'a> {
+    /// The scene of a drawing that [`check`] passed.
+    pub fn new(
+        points: &[DVec3],
+        normals: Option<&[DVec3]>,
+        drawing: &Drawing<'a>,
+        options: &Options,
+    ) -> Self {
+        let shown = points.iter().copied();
+        let shown = shown.chain(marks::points(drawing.strokes, drawing.dots));
+        let (frame, fitted) = Frame::with_bounds(shown, options.bounds);
         let positions: Vec<DVec3> = points.iter().map(|&p| frame.place(p)).collect();
         let normals = normals
             .unwrap_or_default()
@@ -70,6 +96,9 @@ impl CloudScene {
             // A radius that is not a positive number draws the smallest discs.
             radius: radius.clamp(0.0, 1.0).max(0.0),
             fitted,
+            shading: options.shading,
+            painted: Painted::new(&drawing.coloring, &options.palette),
+            marks: Marks::new(&frame, drawing.strokes, drawing.dots),
             front: linear(options.palette.front),
             back: linear(options.palette.back),
             ball: linear(options.palette.point),
@@ -88,9 +117,23 @@ impl CloudScene {
         let in_samples = (self.radius * scale).max(LEAST_PIXELS * view.samples_per_pixel);
         (in_samples, in_samples / scale)
     }
+
+    fn disc(&self, view: &View, point: usize) -> Disc {
+        let projected = view.camera.project(self.positions[point]);
+        let (reach, radius) = self.radii(view, projected.nearness);
+        Disc {
+            center: view.placement.place(projected),
+            height: view.camera.height(projected.nearness),
+            reach,
+            radius,
+            tilted: self.normal(&view.camera, point).map(tilt),
+        }
+    }
 }
 
-impl Scene for CloudScene {
+impl Scene for CloudScene<'_> {
+    type Placed = Placed;
+
     fn project(&self, camera: &Camera, visit: &mut dyn FnMut(Projected)) {
         if !self.fitted.project(camera, visit) {
             return;
@@ -98,20 +141,32 @@ impl Scene for CloudScene {
         for &position in &self.positions {
             visit(camera.project(position));
         }
+        self.marks.project(camera, visit);
     }
 
-    fn draw(&self, view: &View, samples: &mut Samples) {
-        for (point, &position) in self.positions.iter().enumerate() {
-            let projected = view.camera.project(position);
-            let (in_samples, radius) = self.radii(view, projected.nearness);
-            let height = view.camera.height(projected.nearness);
-            let tilted = self.normal(&view.camera, point).map(tilt);
-            let unit_length = radius / in_samples;
-            let center = view.placement.place(projected);
-            samples.around(center, in_samples, |samples, at, dx, dy| {
+    fn place(&self, view: &View) -> Placed {
+        let points = 0..self.positions.len();
+        let discs: Vec<Disc> = points.map(|point| self.disc(view, point)).collect();
+        let bins = view.bins(discs.len(), |point| {
+            let Disc { center, reach, .. } = discs[point];
+            rows_between([center.1; 2], reach, view.height)
+        });
+        Placed {
+            discs,
+            bins,
+            marks: self.marks.place(view),
+        }
+    }
+
+    fn draw(&self, placed: &Placed, band: usize, camera: &Camera, samples: &mut Samples<'_>) {
+        for point in placed.bins.of(band) {
+            let disc = &placed.discs[point];
+            let radius = disc.radius;
+            let unit_length = radius / disc.reach;
+            samples.around(disc.center, disc.reach, |samples, at, dx, dy| {
                 // Samples count y downwards.
                 let (x, y) = (dx * unit_length, -dy * unit_length);
-                let rise = match tilted {
+                let rise = match disc.tilted {
                     Some(normal) => {
                         let rise = -(normal.x * x + normal.y * y) / normal.z;
                         (x * x + y * y + rise * rise <= radius * radius).then_some(rise)
@@ -122,32 +177,44 @@ impl Scene for CloudScene {
                     }
                 };
                 if let Some(rise) = rise {
-                    let nearness = view.camera.nearness(height + rise);
+                    let nearness = camera.nearness(disc.height + rise);
                     samples.put(at, nearness as f32, point as u32);
                 }
             });
         }
+        placed.marks.draw(band, samples, self.positions.len());
     }
 
-    fn shade(&self, view: &View, what: u32, at: (f64, f64)) -> Color {
+    fn shade(&self, view: &View, placed: &Placed, what: u32, at: (f64, f64)) -> Color {
         let point = what as usize;
-        if let Some(normal) = self.normal(&view.camera, point) {
-            return if normal.z >= 0.0 {
-                lit(self.front, normal)
-            } else {
-                lit(self.back, -normal)
-            };
+        if let Some(mark) = point.checked_sub(self.positions.len()) {
+            return self.marks.color(mark);
         }
-        let projected = view.camera.project(self.positions[point]);
-        let (in_samples, _) = self.radii(view, projected.nearness);
-        let (x, y) = view.placement.place(projected);
-        let (x, y) = ((at.0 - x) / in_samples, (y - at.1) / in_samples);
+        let normal = self.normal(&view.camera, point);
+        let surface = match (&self.painted, normal) {
+            (Painted::Each(colors), _) => linear(colors[point]),
+            (Painted::Values(scale), _) => scale.of(point),
+            (Painted::Sides, None) => self.ball,
+            (Painted::Sides, Some(normal)) if normal.z >= 0.0 => self.front,
+            (Painted::Sides, Some(_)) => self.back,
+        };
+        if self.shading == Shading::Unlit {
+            return surface;
+        }
+        if let Some(normal) = normal {
+            return lit(surface, if normal.z >= 0.0 { normal } else { -normal });
+        }
+        let Disc { center, reach, .. } = placed.discs[point];
+        let (x, y) = ((at.0 - center.0) / reach, (center.1 - at.1) / reach);
         let z = (1.0 - x * x - y * y).max(0.0).sqrt();
-        lit(self.ball, unit(DVec3::new(x, y, z)).unwrap_or(DVec3::Z))
+        lit(surface, unit(DVec3::new(x, y, z)).unwrap_or(DVec3::Z))
     }
 
-    fn is_mark(&self, _what: u32) -> bool {
-        false
+    fn kind(&self, what: u32) -> Kind {
+        match what as usize >= self.positions.len() {
+            true => Kind::Mark,
+            false => Kind::Surface,
+        }
     }
 
     fn is_uniform(&self) -> bool {

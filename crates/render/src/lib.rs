@@ -1,7 +1,7 @@
 //! Pictures of meshes and point clouds, in memory, without a GPU: the same bytes on every machine.
 //!
-//! The data is an [`Image`], rows from the top, and the [`Options`] that say what the sheet shows. The verbs are
-//! [`render_mesh`] and [`render_points`]:
+//! The data is an [`Image`], rows from the top; a [`Drawing`], a mesh or points with what is shown on them; and the
+//! [`Options`] that say how. The verb is [`render`]; [`render_mesh`] and [`render_points`] are for what is no more:
 //!
 //! ```
 //! use pellicle_geometry::DVec3;
@@ -20,27 +20,36 @@
 //! 1. The input is moved and scaled into the unit ball, so that any finite coordinates do.
 //! 2. Each view gets a cell of the sheet, all of one size, and one scale fits all of them.
 //! 3. In each cell every sample (several a pixel) keeps the nearest triangle or disc: *what*, not *which colour*.
-//! 4. Borders are drawn over it where nothing hides them.
-//! 5. Samples are shaded, darkened in creases, and averaged to pixels in linear light.
+//! 4. Edges, borders, strokes and dots are drawn over it where nothing hides them.
+//! 5. What a pixel's samples show is shaded, darkened in creases, and averaged in linear light.
+//! 6. Values have a bar beside the views.
 //!
 //! Only `+ − × ÷ √` on `f64` and integers are used: these are exactly rounded everywhere.
 #![forbid(unsafe_code)]
 
+mod bar;
 mod camera;
 mod cloud;
+mod colormap;
+mod drawing;
+mod font;
 mod frame;
+mod marks;
 mod mesh;
 mod options;
+mod paint;
 mod samples;
 mod shade;
 mod sheet;
 mod strip;
 
-pub use options::{Options, Palette, Projection, Shading, Up, View};
+pub use colormap::ColorMap;
+pub use drawing::{Bar, Coloring, Dot, Drawing, Stroke, Subject, Values, Visibility};
+pub use options::{Background, Borders, Options, Palette, Projection, Shading, Style, Up, View};
 pub use strip::strip;
 
 use pellicle_geometry::{Aabb, DVec3, VertexId};
-use pellicle_mesh::MeshView;
+use pellicle_mesh::{MeshView, TriangleId};
 
 /// A picture: red, green, blue and opacity of each pixel, in sRGB, rows from the top.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,8 +92,60 @@ pub enum Error {
         /// How many normals.
         normals: usize,
     },
-    /// More triangles or points than `u32` ids can name.
-    #[error("{count} triangles or points: at most 2^32 - 8 can be drawn")]
+    /// There are not as many values as vertices or points.
+    #[error("{values} values for {expected} vertices or points")]
+    ValueCount {
+        /// How many values.
+        values: usize,
+        /// How many vertices of the mesh, or points.
+        expected: usize,
+    },
+    /// There are not as many colours as triangles or points.
+    #[error("{colors} colours for {expected} triangles or points")]
+    ColorCount {
+        /// How many colours.
+        colors: usize,
+        /// How many triangles, or points.
+        expected: usize,
+    },
+    /// The values of the colours' ends are not finite, or in the wrong order.
+    #[error("colours cannot run from {low} to {high}")]
+    NoRange {
+        /// The first.
+        low: f64,
+        /// The second.
+        high: f64,
+    },
+    /// A triangle that is to be marked does not exist.
+    #[error("triangle {} is to be marked, but there are {triangles}", .triangle.0)]
+    NoSuchTriangle {
+        /// The triangle.
+        triangle: TriangleId,
+        /// How many there are.
+        triangles: usize,
+    },
+    /// An end of a stroke is NaN or infinite.
+    #[error("stroke {stroke} has an end that is not finite")]
+    StrokeNotFinite {
+        /// The first such stroke's index.
+        stroke: usize,
+    },
+    /// A dot is at NaN or infinity.
+    #[error("dot {dot} has a coordinate that is not finite")]
+    DotNotFinite {
+        /// The first such dot's index.
+        dot: usize,
+    },
+    /// A bar of colours would leave no place for the views.
+    #[error("{width} × {height} pixels have no room for a bar of colours")]
+    NoRoomForBar {
+        /// Pixels in a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// More triangles, points and marks than `u32` ids can name.
+    #[error("{count} triangles or points and marks: at most 2^32 - 8 can be drawn")]
     TooMany {
         /// How many.
         count: usize,
@@ -147,27 +208,57 @@ pub enum Error {
     },
 }
 
-/// Draws a mesh or a soup. Counter-clockwise triangles face the viewer; others show the back's colour.
+/// Draws a mesh or points with all that is shown on them.
 ///
-/// Time is linear in triangles plus samples covered, times views, but for one sort of the edges; memory is 12 bytes a
-/// vertex and 8 a sample of one view, 24 an edge while borders are sought.
-pub fn render_mesh(mesh: MeshView<'_>, options: &Options) -> Result<Image, Error> {
+/// Time is linear in things plus samples covered, times views, but for one sort of the edges; memory is 36 bytes a
+/// vertex, 64 a point, 8 a sample of each view, and 12 to 96 an edge where edges or borders are drawn.
+pub fn render(drawing: &Drawing<'_>, options: &Options) -> Result<Image, Error> {
     check_bounds(options)?;
-    mesh::check(mesh)?;
-    sheet::draw(&mesh::MeshScene::new(mesh, options), options)
+    let (things, vertices) = match drawing.subject {
+        Subject::Mesh(mesh) => (mesh.triangles.len(), mesh.positions.len()),
+        Subject::Points { positions, .. } => (positions.len(), positions.len()),
+    };
+    let count = things + drawing.strokes.len() + drawing.dots.len();
+    if count > (u32::MAX - 8) as usize {
+        return Err(Error::TooMany { count });
+    }
+    paint::check(&drawing.coloring, things, vertices)?;
+    marks::check(drawing.strokes, drawing.dots)?;
+    let bar = bar::ColorBar::new(&drawing.coloring, options)?;
+    let right = bar.as_ref().map_or(0, |bar| bar.columns);
+    let mut image = match drawing.subject {
+        Subject::Mesh(mesh) => {
+            mesh::check(mesh, drawing.marked)?;
+            let scene = mesh::MeshScene::new(mesh, drawing, options);
+            sheet::draw(&scene, options, right)
+        }
+        Subject::Points { positions, normals } => {
+            cloud::check(positions, normals)?;
+            let scene = cloud::CloudScene::new(positions, normals, drawing, options);
+            sheet::draw(&scene, options, right)
+        }
+    }?;
+    if let Some(bar) = bar {
+        bar.draw(&mut image, options);
+    }
+    Ok(image)
+}
+
+/// Draws a mesh or a soup in the colours of the palette. Counter-clockwise triangles face the viewer; others show the
+/// back's colour.
+pub fn render_mesh(mesh: MeshView<'_>, options: &Options) -> Result<Image, Error> {
+    render(&Drawing::mesh(mesh), options)
 }
 
 /// Draws a cloud: a disc a point, turned by its normal where there is one, else a small ball.
 ///
-/// A normal that is zero or not finite counts as none. Time is linear in points plus samples covered, times views.
+/// A normal that is zero or not finite counts as none.
 pub fn render_points(
     points: &[DVec3],
     normals: Option<&[DVec3]>,
     options: &Options,
 ) -> Result<Image, Error> {
-    check_bounds(options)?;
-    cloud::check(points, normals)?;
-    sheet::draw(&cloud::CloudScene::new(points, normals, options), options)
+    render(&Drawing::points(points, normals), options)
 }
 
 /// An empty box asks for nothing.

@@ -24,8 +24,16 @@ pub struct Options {
     pub samples: u32,
     /// Radius of a point's disc in units of the data; by default a share of the estimated spacing.
     pub point_radius: Option<f64>,
+    /// What of a mesh is drawn; its surface.
+    pub style: Style,
+    /// Width of an edge in pixels; 1.
+    pub edge_width: f64,
+    /// Whether edges of one triangle, and of three or more, are marked; they are.
+    pub borders: Borders,
     /// How much creases are darkened; 0 is not at all, 1 the default.
     pub occlusion: f64,
+    /// What is where there is nothing; the palette's colour.
+    pub background: Background,
     /// The colours.
     pub palette: Palette,
 }
@@ -42,7 +50,11 @@ impl Default for Options {
             shading: Shading::default(),
             samples: 3,
             point_radius: None,
+            style: Style::default(),
+            edge_width: 1.0,
+            borders: Borders::default(),
             occlusion: 1.0,
+            background: Background::default(),
             palette: Palette::default(),
         }
     }
@@ -97,6 +109,42 @@ pub enum Shading {
     Flat,
     /// Normals blended over a triangle, but not across edges sharper than 60 degrees.
     Smooth,
+    /// No light: each colour as it is.
+    Unlit,
+}
+
+/// What of a mesh is drawn.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Style {
+    /// Its triangles.
+    #[default]
+    Surface,
+    /// Its triangles, and their edges over them.
+    SurfaceAndEdges,
+    /// Its edges, but for those that the surface hides.
+    VisibleEdges,
+    /// All its edges.
+    AllEdges,
+}
+
+/// Whether the edges are marked at which a mesh is no closed manifold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Borders {
+    /// Edges of one triangle, and of three or more, in colours of their own.
+    #[default]
+    Marked,
+    /// As all other edges.
+    Plain,
+}
+
+/// What is where there is nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Background {
+    /// The palette's colour.
+    #[default]
+    Opaque,
+    /// Nothing: opacity is the share of a pixel that is covered.
+    Transparent,
 }
 
 /// Colours in sRGB: red, green, blue.
@@ -112,6 +160,14 @@ pub struct Palette {
     pub border: [u8; 3],
     /// An edge of three or more triangles.
     pub non_manifold: [u8; 3],
+    /// An edge of two triangles, where edges are drawn.
+    pub edge: [u8; 3],
+    /// A triangle that is marked.
+    pub marked: [u8; 3],
+    /// Where a value is not finite.
+    pub no_value: [u8; 3],
+    /// Numbers and title of a colour bar.
+    pub text: [u8; 3],
     /// Where there is nothing.
     pub background: [u8; 3],
 }
@@ -124,6 +180,10 @@ impl Default for Palette {
             point: [126, 160, 190],
             border: [226, 88, 34],
             non_manifold: [206, 0, 24],
+            edge: [44, 48, 56],
+            marked: [228, 160, 32],
+            no_value: [150, 150, 150],
+            text: [52, 56, 64],
             background: [244, 245, 247],
         }
     }

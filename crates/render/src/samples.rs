@@ -1,6 +1,8 @@
 //! What each sample of a view shows, and how near it is.
 
 use crate::camera::Projected;
+use rayon::prelude::*;
+use std::ops::Range;
 
 /// The id of a sample that shows nothing.
 pub const NOTHING: u32 = u32::MAX;
@@ -10,7 +12,7 @@ pub const NOTHING: u32 = u32::MAX;
 const FRACTIONS: f64 = 256.0;
 
 /// The samples of one view, rows from the top.
-pub struct Samples {
+pub struct Plane {
     /// Samples in a row.
     pub width: usize,
     /// Rows.
@@ -21,6 +23,95 @@ pub struct Samples {
     pub what: Vec<u32>,
 }
 
+impl Plane {
+    /// Nothing everywhere.
+    pub fn new(width: usize, height: usize) -> Self {
+        Self {
+            width,
+            height,
+            nearness: vec![f32::NEG_INFINITY; width * height],
+            what: vec![NOTHING; width * height],
+        }
+    }
+
+    /// Draws bands of so many rows, each apart: what a sample shows does not depend on the bands.
+    pub fn draw(&mut self, rows: usize, draw: impl Fn(usize, &mut Samples<'_>) + Sync) {
+        let (width, length) = (self.width, self.width * rows);
+        let bands = self.nearness.par_chunks_mut(length);
+        let bands = bands.zip(self.what.par_chunks_mut(length)).enumerate();
+        bands.for_each(|(band, (nearness, what))| {
+            let first = band * rows;
+            let mut samples = Samples {
+                width,
+                rows: first..first + what.len() / width,
+                nearness,
+                what,
+            };
+            draw(band, &mut samples);
+        });
+    }
+}
+
+/// A band of rows, being drawn.
+pub struct Samples<'a> {
+    width: usize,
+    rows: Range<usize>,
+    nearness: &'a mut [f32],
+    what: &'a mut [u32],
+}
+
+/// Which things lie in which band, in their order.
+#[derive(Debug, Default)]
+pub struct Bins {
+    /// Where the things of each band start, and where the last end.
+    starts: Vec<usize>,
+    things: Vec<u32>,
+}
+
+impl Bins {
+    /// Sorts `count` things, the rows of each given, by bands of `band` rows of `height`. Linear time.
+    pub fn new(
+        count: usize,
+        height: usize,
+        band: usize,
+        rows: impl Fn(usize) -> Range<usize>,
+    ) -> Self {
+        let bands = |thing: usize| {
+            let Range { start, end } = rows(thing);
+            let end = end.min(height);
+            start / band..if start < end {
+                end.div_ceil(band)
+            } else {
+                start / band
+            }
+        };
+        let mut starts = vec![0; height.div_ceil(band) + 1];
+        for thing in 0..count {
+            for band in bands(thing) {
+                starts[band + 1] += 1;
+            }
+        }
+        for band in 1..starts.len() {
+            starts[band] += starts[band - 1];
+        }
+        let mut things = vec![0; starts[starts.len() - 1]];
+        let mut next = starts.clone();
+        for thing in 0..count {
+            for band in bands(thing) {
+                things[next[band]] = thing as u32;
+                next[band] += 1;
+            }
+        }
+        Self { starts, things }
+    }
+
+    /// The things of a band, ascending.
+    pub fn of(&self, band: usize) -> impl Iterator<Item = usize> {
+        let things = &self.things[self.starts[band]..self.starts[band + 1]];
+        things.iter().map(|&thing| thing as usize)
+    }
+}
+
 /// A corner in the samples' frame: x to the right, y *down*, the first sample's centre at (½, ½).
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Corner {
@@ -28,7 +119,18 @@ pub struct Corner {
     x: i64,
     /// In [`FRACTIONS`] of a sample.
     y: i64,
-    nearness: f64,
+    /// As of its point.
+    pub nearness: f64,
+}
+
+impl Corner {
+    /// Where it lies from a place among the samples.
+    pub fn offset(&self, at: (f64, f64)) -> (f64, f64) {
+        (
+            self.x as f64 / FRACTIONS - at.0,
+            self.y as f64 / FRACTIONS - at.1,
+        )
+    }
 }
 
 /// From the picture plane to samples: one scale, and where the plane's origin lies.
@@ -64,17 +166,7 @@ impl Placement {
     }
 }
 
-impl Samples {
-    /// Nothing everywhere.
-    pub fn new(width: usize, height: usize) -> Self {
-        Self {
-            width,
-            height,
-            nearness: vec![f32::NEG_INFINITY; width * height],
-            what: vec![NOTHING; width * height],
-        }
-    }
-
+impl Samples<'_> {
     /// Shows `what` at a sample unless something as near is there already.
     #[inline]
     pub fn put(&mut self, at: usize, nearness: f32, what: u32) {
@@ -100,24 +192,44 @@ impl Samples {
             return;
         }
         let inverse = 1.0 / area as f64;
+        // How the three edge functions, and with them the nearness, change from column to column.
+        let mut steps = [0; 3];
+        for i in 0..3 {
+            let (from, to) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
+            steps[i] = -(to.y - from.y) * FRACTIONS as i64;
+        }
+        let blend = |weights: [i64; 3]| {
+            (weights[0] as f64 * a.nearness
+                + weights[1] as f64 * b.nearness
+                + weights[2] as f64 * c.nearness)
+                * inverse
+        };
+        let slope = blend(steps);
         for row in rows {
-            // The three edge functions at the row's first sample: each is twice the area spanned with the opposite
-            // corner's edge, hence that corner's weight.
+            // The edge functions at the row's first sample: each is twice the area spanned with the opposite corner's
+            // edge, hence that corner's weight.
             let (x, y) = (center(columns.start), center(row));
             let mut weights = [0; 3];
-            let mut steps = [0; 3];
             for i in 0..3 {
                 let (from, to) = (corners[(i + 1) % 3], corners[(i + 2) % 3]);
                 weights[i] = (to.x - from.x) * (y - from.y) - (to.y - from.y) * (x - from.x);
-                steps[i] = -(to.y - from.y) * FRACTIONS as i64;
             }
-            for column in columns.clone() {
-                if weights.iter().all(|&weight| weight >= 0) {
-                    let nearness = (weights[0] as f64 * a.nearness
-                        + weights[1] as f64 * b.nearness
-                        + weights[2] as f64 * c.nearness)
-                        * inverse;
-                    self.put(row * self.width + column, nearness as f32, what);
+            let first = blend(weights);
+            let start = (row - self.rows.start) * self.width;
+            let line = start + columns.start..start + columns.end;
+            let samples = self.nearness[line.clone()].iter_mut();
+            let mut was_inside = false;
+            for (at, (stored, shown)) in samples.zip(&mut self.what[line]).enumerate() {
+                // No sign bit: all three are zero or above.
+                if weights[0] | weights[1] | weights[2] >= 0 {
+                    was_inside = true;
+                    let nearness = (first + at as f64 * slope) as f32;
+                    if nearness > *stored {
+                        *stored = nearness;
+                        *shown = what;
+                    }
+                } else if was_inside {
+                    break;
                 }
                 for i in 0..3 {
                     weights[i] += steps[i];
@@ -127,20 +239,10 @@ impl Samples {
     }
 
     /// The columns and rows whose sample centres lie in the corners' box.
-    fn covered(&self, corners: &[Corner; 3]) -> (std::ops::Range<usize>, std::ops::Range<usize>) {
-        let range = |values: [i64; 3], limit: usize| {
-            let [a, b, c] = values;
-            let half = FRACTIONS as i64 / 2;
-            // The first centre at or after the least, and the first after the greatest.
-            let first =
-                (a.min(b).min(c) - half + FRACTIONS as i64 - 1).div_euclid(FRACTIONS as i64);
-            let end = (a.max(b).max(c) - half).div_euclid(FRACTIONS as i64) + 1;
-            let clamp = |v: i64| v.clamp(0, limit as i64) as usize;
-            clamp(first)..clamp(end)
-        };
+    fn covered(&self, corners: &[Corner; 3]) -> (Range<usize>, Range<usize>) {
         (
-            range(corners.map(|corner| corner.x), self.width),
-            range(corners.map(|corner| corner.y), self.height),
+            centers_between(corners.map(|corner| corner.x), &(0..self.width)),
+            centers_between(corners.map(|corner| corner.y), &self.rows),
         )
     }
 
@@ -152,16 +254,12 @@ impl Samples {
         radius: f64,
         mut visit: impl FnMut(&mut Self, usize, f64, f64),
     ) {
-        let range = |middle: f64, limit: usize| {
-            let first = (middle - radius - 0.5).ceil().max(0.0) as usize;
-            let end = (middle + radius - 0.5).floor() + 1.0;
-            first..(end.max(0.0) as usize).min(limit)
-        };
-        let columns = range(x, self.width);
-        for row in range(y, self.height) {
+        let columns = centers_around(x, radius, &(0..self.width));
+        for row in centers_around(y, radius, &self.rows) {
+            let start = (row - self.rows.start) * self.width;
             for column in columns.clone() {
                 let (dx, dy) = (column as f64 + 0.5 - x, row as f64 + 0.5 - y);
-                visit(self, row * self.width + column, dx, dy);
+                visit(self, start + column, dx, dy);
             }
         }
     }
@@ -201,6 +299,35 @@ impl Samples {
             });
         }
     }
+}
+
+/// The indices within `limits` of the sample centres from the least to the greatest of three corners' coordinates.
+fn centers_between([a, b, c]: [i64; 3], limits: &Range<usize>) -> Range<usize> {
+    let half = FRACTIONS as i64 / 2;
+    // The first centre at or after the least, and the first after the greatest.
+    let first = (a.min(b).min(c) - half + FRACTIONS as i64 - 1).div_euclid(FRACTIONS as i64);
+    let end = (a.max(b).max(c) - half).div_euclid(FRACTIONS as i64) + 1;
+    let clamp = |v: i64| v.clamp(limits.start as i64, limits.end as i64) as usize;
+    clamp(first)..clamp(end)
+}
+
+/// The indices within `limits` of the sample centres at most `radius` from `middle`.
+fn centers_around(middle: f64, radius: f64, limits: &Range<usize>) -> Range<usize> {
+    let first = (middle - radius - 0.5).ceil().max(limits.start as f64) as usize;
+    let end = (middle + radius - 0.5).floor() + 1.0;
+    first..(end.max(0.0) as usize).min(limits.end)
+}
+
+/// The rows that a triangle covers, of all there are.
+pub fn triangle_rows(corners: [Corner; 3], height: usize) -> Range<usize> {
+    centers_between(corners.map(|corner| corner.y), &(0..height))
+}
+
+/// The rows that a disc, or a line from the first to the last y, covers at most.
+pub fn rows_between(y: [f64; 2], radius: f64, height: usize) -> Range<usize> {
+    let (low, high) = (y[0].min(y[1]), y[0].max(y[1]));
+    let start = centers_around(low, radius, &(0..height)).start;
+    start..centers_around(high, radius, &(0..height)).end
 }
 
 /// Twice the signed area in the samples' frame: positive when `a, b, c` turn *clockwise* to the viewer, since y
@@ -248,26 +375,30 @@ mod tests {
                 }
             })
             .collect();
-        let mut samples = Samples::new(16, 16);
-        for pair in rim.windows(2) {
-            samples.triangle([hub, pair[0], pair[1]], 1);
-        }
+        let mut samples = Plane::new(16, 16);
+        samples.draw(5, |_, band| {
+            for pair in rim.windows(2) {
+                band.triangle([hub, pair[0], pair[1]], 1);
+            }
+        });
         assert!(samples.what.iter().all(|&what| what == 1));
     }
 
     #[test]
     fn nearness_is_linear_and_decides() {
-        let mut samples = Samples::new(16, 16);
+        let mut samples = Plane::new(16, 16);
         let far = [corner(0.0, 0.0), corner(16.0, 0.0), corner(0.0, 16.0)];
-        samples.triangle(far, 1);
+        samples.draw(16, |_, band| band.triangle(far, 1));
         // The sample at column 2, row 3 has its centre at (2.5, 12.5) with y up.
         assert_eq!(samples.nearness[3 * 16 + 2], 2.5 + 2.0 * 12.5);
         let nearer = far.map(|corner| Corner {
             nearness: corner.nearness + 1.0,
             ..corner
         });
-        samples.triangle([nearer[0], nearer[2], nearer[1]], 2);
-        samples.triangle(far, 3);
+        samples.draw(3, |_, band| {
+            band.triangle([nearer[0], nearer[2], nearer[1]], 2);
+            band.triangle(far, 3);
+        });
         assert!(
             samples
                 .what
@@ -287,10 +418,12 @@ mod tests {
 
     #[test]
     fn a_line_is_as_wide_as_asked_and_hides_behind_what_is_nearer() {
-        let mut samples = Samples::new(16, 16);
-        samples.put(8 * 16 + 8, 5.0, 1);
-        samples.put(8 * 16 + 9, 1.05, 1);
-        samples.line([((2.0, 8.5), 1.0), ((14.0, 8.5), 1.0)], 1.1, 0.1, 7);
+        let mut samples = Plane::new(16, 16);
+        samples.draw(16, |_, band| {
+            band.put(8 * 16 + 8, 5.0, 1);
+            band.put(8 * 16 + 9, 1.05, 1);
+            band.line([((2.0, 8.5), 1.0), ((14.0, 8.5), 1.0)], 1.1, 0.1, 7);
+        });
         let rows: Vec<usize> = (0..16)
             .filter(|row| samples.what[row * 16 + 5] == 7)
             .collect();

@@ -1,10 +1,11 @@
 //! Several views on one sheet, and samples to pixels.
 
 use crate::camera::{Camera, Projected};
-use crate::samples::{NOTHING, Placement, Samples};
+use crate::samples::{Bins, NOTHING, Placement, Plane, Samples};
 use crate::shade::{Color, linear, pixel};
-use crate::{Error, Image, Options};
+use crate::{Background, Error, Image, Options};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// The share of a view that its scene may fill.
 const FILL: f64 = 0.88;
@@ -12,18 +13,36 @@ const FILL: f64 = 0.88;
 /// The most samples along a side of a view: their coordinates, in fractions, multiply within `i64`.
 const MOST_SAMPLES: u64 = 1 << 16;
 
+/// Rows of pixels that are drawn by one thread at a time.
+const BAND: usize = 24;
+
 /// What can be drawn into a view.
 pub trait Scene: Sync {
+    /// The scene among the samples of a view.
+    type Placed: Sync;
     /// Visits everything that the view must fit.
     fn project(&self, camera: &Camera, visit: &mut dyn FnMut(Projected));
-    /// Puts everything into the samples.
-    fn draw(&self, view: &View, samples: &mut Samples);
+    /// Finds where everything lies.
+    fn place(&self, view: &View) -> Self::Placed;
+    /// Puts what lies in a band into its samples.
+    fn draw(&self, placed: &Self::Placed, band: usize, camera: &Camera, samples: &mut Samples<'_>);
     /// The colour of `what` at a place among the samples.
-    fn shade(&self, view: &View, what: u32, at: (f64, f64)) -> Color;
-    /// Whether `what` is a mark on the scene, which takes no shadow.
-    fn is_mark(&self, what: u32) -> bool;
+    fn shade(&self, view: &View, placed: &Self::Placed, what: u32, at: (f64, f64)) -> Color;
+    /// How `what` shows.
+    fn kind(&self, what: u32) -> Kind;
     /// Whether one thing has one colour everywhere in a view.
     fn is_uniform(&self) -> bool;
+}
+
+/// How a thing shows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// Takes light and shadow.
+    Surface,
+    /// Takes no shadow.
+    Mark,
+    /// Only hides what is behind it.
+    Nothing,
 }
 
 /// One view: its camera, and where its picture plane lies among its samples.
@@ -34,6 +53,17 @@ pub struct View {
     pub placement: Placement,
     /// Samples along a pixel's side.
     pub samples_per_pixel: f64,
+    /// Rows of samples.
+    pub height: usize,
+    /// Rows of samples in a band.
+    pub band: usize,
+}
+
+impl View {
+    /// Sorts things by the bands that their rows lie in.
+    pub fn bins(&self, count: usize, rows: impl Fn(usize) -> Range<usize>) -> Bins {
+        Bins::new(count, self.height, self.band, rows)
+    }
 }
 
 /// The sheet divided: `columns` × `rows` cells of one size.
@@ -44,9 +74,9 @@ struct Layout {
     height: usize,
 }
 
-/// Draws all views of a scene.
-pub fn draw(scene: &impl Scene, options: &Options) -> Result<Image, Error> {
-    let layout = Layout::new(options)?;
+/// Draws all views of a scene; `right` columns at the right stay free.
+pub fn draw(scene: &impl Scene, options: &Options, right: u32) -> Result<Image, Error> {
+    let layout = Layout::new(options, right)?;
     let samples = options.samples as usize;
     let cameras = options
         .views
@@ -55,29 +85,46 @@ pub fn draw(scene: &impl Scene, options: &Options) -> Result<Image, Error> {
         .collect::<Result<Vec<_>, _>>()?;
     let views = fit(scene, &cameras, layout, samples);
 
-    let background = linear(options.palette.background);
-    // Views do not know each other: any number of threads gives the same bytes.
+    let background = match options.background {
+        Background::Opaque => Some(linear(options.palette.background)),
+        Background::Transparent => None,
+    };
+    // Views do not know each other, nor do bands: any number of threads gives the same bytes.
     let cells: Vec<Vec<[u8; 4]>> = views
         .par_iter()
         .map(|view| {
-            let mut drawn = Samples::new(layout.width * samples, layout.height * samples);
-            scene.draw(view, &mut drawn);
-            let shadow = Shadow::new(view, &drawn, options.occlusion);
-            resolve(scene, view, &drawn, &shadow, samples, background)
+            let mut plane = Plane::new(layout.width * samples, layout.height * samples);
+            let placed = scene.place(view);
+            plane.draw(view.band, |band, samples| {
+                scene.draw(&placed, band, &view.camera, samples);
+            });
+            let shadow = Shadow::new(view, &mut plane, options.occlusion);
+            let resolving = Resolving {
+                scene,
+                view,
+                placed: &placed,
+                plane: &plane,
+                shadow: &shadow,
+                samples,
+                background,
+            };
+            resolving.pixels()
         })
         .collect();
-    Ok(layout.assemble(options, &cells, pixel(background)))
+    let fill = background.map_or([0; 4], pixel);
+    Ok(layout.assemble(options, &cells, fill))
 }
 
 impl Layout {
-    fn new(options: &Options) -> Result<Self, Error> {
+    fn new(options: &Options, right: u32) -> Result<Self, Error> {
         let count = options.views.len();
         if count == 0 {
             return Err(Error::NoView);
         }
+        let sheet = options.width.saturating_sub(right) as usize;
         // The number of columns that leaves a cell's shorter side longest; the fewest of those.
         let shorter_side = |columns: usize| {
-            let (width, height) = (options.width as usize, options.height as usize);
+            let (width, height) = (sheet, options.height as usize);
             (width / columns).min(height / count.div_ceil(columns))
         };
         let columns = (2..=count).fold(1, |best, columns| {
@@ -90,7 +137,7 @@ impl Layout {
         let rows = count.div_ceil(columns);
         let layout = Self {
             columns,
-            width: options.width as usize / columns,
+            width: sheet / columns,
             height: options.height as usize / rows,
         };
         let fits = |pixels: usize| {
@@ -179,13 +226,14 @@ fn fit(scene: &impl Scene, cameras: &[Camera], layout: Layout, samples: usize) -
                 origin_y: 0.5 * height + 0.5 * (bottom + top) * scale,
             },
             samples_per_pixel: samples as f64,
+            height: layout.height * samples,
+            band: BAND * samples,
         })
         .collect()
 }
 
-/// Heights of the samples, and how far around one to look for what darkens it.
+/// How far around a sample to look for what darkens it.
 struct Shadow {
-    heights: Vec<f32>,
     /// In samples; empty where nothing is darkened.
     reaches: Vec<usize>,
     strength: f64,
@@ -194,28 +242,30 @@ struct Shadow {
 }
 
 impl Shadow {
-    fn new(view: &View, samples: &Samples, occlusion: f64) -> Self {
+    /// Also makes the nearness of each sample its height.
+    fn new(view: &View, plane: &mut Plane, occlusion: f64) -> Self {
         if occlusion.is_nan() || occlusion <= 0.0 {
             return Self {
-                heights: Vec::new(),
                 reaches: Vec::new(),
                 strength: 0.0,
                 step: 1.0,
             };
         }
-        let side = samples.width.min(samples.height) as f64;
+        let side = plane.width.min(plane.height) as f64;
         let pixel = view.samples_per_pixel;
         let reaches = [
             2.0 * pixel,
             (side * 0.012).max(4.0 * pixel),
             (side * 0.04).max(8.0 * pixel),
         ];
-        let height = |&nearness: &f32| match nearness {
-            f32::NEG_INFINITY => f32::NEG_INFINITY,
-            _ => view.camera.height(f64::from(nearness)) as f32,
-        };
+        plane.nearness.par_chunks_mut(1 << 14).for_each(|chunk| {
+            for nearness in chunk {
+                if *nearness != f32::NEG_INFINITY {
+                    *nearness = view.camera.height(f64::from(*nearness)) as f32;
+                }
+            }
+        });
         Self {
-            heights: samples.nearness.iter().map(height).collect(),
             reaches: reaches.map(|reach| reach as usize).to_vec(),
             strength: occlusion,
             step: 1.0 / view.placement.scale,
@@ -229,22 +279,26 @@ impl Shadow {
     ///     \    s    /       lies above s, s lies in a crease. A slope has a mean of its own height.
     ///      `-..|..-'        A gap far deeper than wide is not a crease but an outline, and fades out.
     /// ```
-    fn kept(&self, width: usize, height: usize, column: usize, row: usize) -> f64 {
-        let own = f64::from(self.heights[row * width + column]);
+    fn kept(&self, plane: &Plane, column: usize, row: usize) -> f64 {
+        let (width, height) = (plane.width, plane.height);
+        let place = row * width + column;
+        let own = f64::from(plane.nearness[place]);
         let mut sum = 0.0;
         for &reach in &self.reaches {
             let span = reach as f64 * self.step;
-            for (dx, dy) in [(1, 0), (0, 1), (1, 1), (1, -1)] {
-                let at = |sign: isize| {
-                    let x = column as isize + sign * dx * reach as isize;
-                    let y = row as isize + sign * dy * reach as isize;
-                    let inside =
-                        (0..width as isize).contains(&x) && (0..height as isize).contains(&y);
-                    inside.then(|| f64::from(self.heights[y as usize * width + x as usize]))
-                };
-                let (Some(a), Some(b)) = (at(1), at(-1)) else {
-                    continue;
-                };
+            // Whether there are samples so far to the left and the right, and above and below.
+            let wide = column >= reach && column + reach < width;
+            let high = row >= reach && row + reach < height;
+            let (right, down) = (reach, reach * width);
+            let pairs = [
+                (wide, right),
+                (high, down),
+                (wide && high, down + right),
+                (wide && high, down.wrapping_sub(right)),
+            ];
+            for (_, offset) in pairs.into_iter().filter(|(inside, _)| *inside) {
+                let a = f64::from(plane.nearness[place + offset]);
+                let b = f64::from(plane.nearness[place - offset]);
                 let depth = ((a + b) * 0.5 - own) / span;
                 if depth > 0.0 {
                     sum += depth / (1.0 + depth * depth);
@@ -256,42 +310,120 @@ impl Shadow {
 }
 
 /// Samples to pixels: the mean in linear light.
-fn resolve(
-    scene: &impl Scene,
-    view: &View,
-    drawn: &Samples,
-    shadow: &Shadow,
+struct Resolving<'a, S: Scene> {
+    scene: &'a S,
+    view: &'a View,
+    placed: &'a S::Placed,
+    plane: &'a Plane,
+    shadow: &'a Shadow,
+    /// Along a pixel's side.
     samples: usize,
-    background: Color,
-) -> Vec<[u8; 4]> {
-    let (width, height) = (drawn.width / samples, drawn.height / samples);
-    let mut last = (NOTHING, Color::ZERO);
-    let mut pixels = Vec::with_capacity(width * height);
-    for y in 0..height {
-        for x in 0..width {
-            let mut sum = Color::ZERO;
-            for sub in 0..samples * samples {
-                let (column, row) = (x * samples + sub % samples, y * samples + sub / samples);
-                let what = drawn.what[row * drawn.width + column];
-                if what == NOTHING {
-                    sum += background;
+    /// None where it is transparent.
+    background: Option<Color>,
+}
+
+/// The samples of a pixel that show one thing.
+struct Share {
+    what: u32,
+    count: usize,
+    /// The sums of their columns and rows.
+    column: usize,
+    row: usize,
+    /// The first of them.
+    first: (usize, usize),
+}
+
+impl<S: Scene> Resolving<'_, S> {
+    fn pixels(&self) -> Vec<[u8; 4]> {
+        let width = self.plane.width / self.samples;
+        let mut pixels = vec![[0; 4]; width * (self.plane.height / self.samples)];
+        let empty = self.background.map_or([0; 4], pixel);
+        let rows = pixels.par_chunks_mut(width).enumerate();
+        rows.for_each_init(Vec::new, |shares, (y, row)| {
+            let mut last = (NOTHING, Color::ZERO);
+            for (x, pixel) in row.iter_mut().enumerate() {
+                if self.is_empty(x, y) {
+                    *pixel = empty;
                     continue;
                 }
-                if what != last.0 || !scene.is_uniform() {
-                    let at = (column as f64 + 0.5, row as f64 + 0.5);
-                    last = (what, scene.shade(view, what, at));
-                }
-                let lit = if shadow.reaches.is_empty() || scene.is_mark(what) {
-                    last.1
-                } else {
-                    last.1 * shadow.kept(drawn.width, drawn.height, column, row)
-                };
-                sum += lit;
+                self.gather(x, y, shares);
+                *pixel = self.resolve(shares, &mut last);
             }
-            pixels.push(pixel(sum / (samples * samples) as f64));
+        });
+        pixels
+    }
+
+    /// Whether no sample of a pixel shows anything.
+    fn is_empty(&self, x: usize, y: usize) -> bool {
+        let mut rows = y * self.samples..(y + 1) * self.samples;
+        rows.all(|row| {
+            let start = row * self.plane.width + x * self.samples;
+            let line = &self.plane.what[start..start + self.samples];
+            line.iter().all(|&what| what == NOTHING)
+        })
+    }
+
+    /// What the samples of a pixel show.
+    fn gather(&self, x: usize, y: usize, shares: &mut Vec<Share>) {
+        shares.clear();
+        for row in y * self.samples..(y + 1) * self.samples {
+            let start = row * self.plane.width + x * self.samples;
+            let line = &self.plane.what[start..start + self.samples];
+            for (column, &what) in (x * self.samples..).zip(line) {
+                match shares.iter_mut().find(|share| share.what == what) {
+                    Some(share) => {
+                        share.count += 1;
+                        share.column += column;
+                        share.row += row;
+                    }
+                    None => shares.push(Share {
+                        what,
+                        count: 1,
+                        column,
+                        row,
+                        first: (column, row),
+                    }),
+                }
+            }
         }
     }
-    pixels
+
+    /// The mean of a pixel's colours, each taken in the middle of its samples.
+    fn resolve(&self, shares: &[Share], last: &mut (u32, Color)) -> [u8; 4] {
+        let (mut sum, mut covered) = (Color::ZERO, 0);
+        for share in shares {
+            let kind = match share.what {
+                NOTHING => Kind::Nothing,
+                what => self.scene.kind(what),
+            };
+            if kind == Kind::Nothing {
+                continue;
+            }
+            if share.what != last.0 || !self.scene.is_uniform() {
+                let count = share.count as f64;
+                let middle = |sum: usize| sum as f64 / count + 0.5;
+                let at = (middle(share.column), middle(share.row));
+                let color = self.scene.shade(self.view, self.placed, share.what, at);
+                *last = (share.what, color);
+            }
+            let mut lit = last.1;
+            if kind == Kind::Surface && !self.shadow.reaches.is_empty() {
+                lit *= self.shadow.kept(self.plane, share.first.0, share.first.1);
+            }
+            sum += lit * share.count as f64;
+            covered += share.count;
+        }
+        let all = self.samples * self.samples;
+        match self.background {
+            Some(background) => pixel((sum + background * (all - covered) as f64) / all as f64),
+            None if covered == 0 => [0; 4],
+            None => {
+                let [red, green, blue, _] = pixel(sum / covered as f64);
+                let opacity = (covered * 255 + all / 2) / all;
+                [red, green, blue, opacity as u8]
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -300,12 +432,15 @@ mod tests {
     use crate::View as Side;
 
     fn layout(views: usize, width: u32, height: u32) -> Result<Layout, Error> {
-        Layout::new(&Options {
-            width,
-            height,
-            views: vec![Side::Front; views],
-            ..Options::default()
-        })
+        Layout::new(
+            &Options {
+                width,
+                height,
+                views: vec![Side::Front; views],
+                ..Options::default()
+            },
+            0,
+        )
     }
 
     #[test]

@@ -43,7 +43,8 @@ pub fn run(verb: Verb, global: &Global) -> Result<(), Failure> {
     }
 }
 
-fn read_options(watch: &Watch) -> ReadOptions<'_> {
+/// How files are read.
+pub fn read_options(watch: &Watch) -> ReadOptions<'_> {
     ReadOptions {
         progress: watch,
         ..ReadOptions::default()
@@ -65,7 +66,7 @@ fn read_manifold(path: &Path, watch: &Watch) -> Result<TriMesh, Failure> {
 }
 
 /// The failure of something done with the mesh of a file.
-fn mesh_failure(path: &Path) -> impl Fn(MeshError) -> Failure + use<> {
+pub fn mesh_failure(path: &Path) -> impl Fn(MeshError) -> Failure + use<> {
     let path = path.to_owned();
     move |reason| Failure::Mesh {
         path: path.clone(),
@@ -91,7 +92,7 @@ fn repair_failure(path: &Path) -> impl Fn(transformesh::Error) -> Failure + use<
 }
 
 /// Reads points or a mesh, and logs what the reader left out.
-fn read(path: &Path, watch: &Watch) -> Result<io::Read, Failure> {
+pub fn read(path: &Path, watch: &Watch) -> Result<io::Read, Failure> {
     let read = io::read(path, &read_options(watch))?;
     log_notes(path, &read.report.notes);
     Ok(read)

@@ -5,5 +5,5 @@ mod header;
 mod read;
 mod write;
 
-pub(crate) use read::read;
+pub(crate) use read::{read, read_property};
 pub(crate) use write::write;

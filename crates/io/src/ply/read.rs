@@ -41,6 +41,55 @@ pub(crate) fn read(source: &mut Source, keep: Keep) -> Result<Contents, Error> {
     Ok(contents)
 }
 
+/// One scalar property of every vertex.
+pub(crate) fn read_property(source: &mut Source, name: &str) -> Result<Vec<f64>, Error> {
+    let Header { encoding, elements } = Header::read(source)?;
+    let mut values = Values {
+        source,
+        encoding,
+        line: Vec::new(),
+        at: 0,
+    };
+    let scalar = |element: &Element| {
+        let is_scalar = |at: &usize| matches!(element.properties[*at].shape, Shape::One(_));
+        element.position(name).filter(is_scalar)
+    };
+    for element in &elements {
+        if element.name != "vertex" {
+            values.skip(element)?;
+            continue;
+        }
+        let Some(wanted) = scalar(element) else {
+            let scalars = element.properties.iter();
+            let scalars = scalars.filter(|p| matches!(p.shape, Shape::One(_)));
+            let known: Vec<String> = scalars.map(|p| shown(p.name.as_bytes())).collect();
+            return Err(Error::NoSuchProperty {
+                path: values.source.path().to_owned(),
+                name: name.to_owned(),
+                known: known.join(", "),
+            });
+        };
+        let mut found = Vec::new();
+        let least = element.least_bytes(encoding);
+        values
+            .source
+            .reserve(&mut found, element.count, least, "vertices")?;
+        for _ in 0..element.count {
+            for (at, property) in element.properties.iter().enumerate() {
+                match property.shape {
+                    Shape::One(scalar) if at == wanted => {
+                        found.push(values.next(scalar, element)?);
+                    }
+                    shape => values.skip_property(shape, element)?,
+                }
+            }
+            values.end(element)?;
+        }
+        return Ok(found);
+    }
+    Err(source.at_byte("the file declares no vertices"))
+}
+
 /// The values of the file one after the other, as `f64`, which holds each type exactly.
 struct Values<'s, 'a> {
     source: &'s mut Source<'a>,
