@@ -200,7 +200,7 @@ fn values_that_there_are_not_are_explained() {
         (kitten.as_str(), "mean-curvature", "points and no"),
         (&kitten, "area", "points and no"),
         (&cube, "property:quality", "PLY"),
-        ("s.ply", "property:quality", "x, y, z"),
+        ("s.ply", "property:quality", "\"x\", \"y\", \"z\""),
         (&cube, "distance-to:missing.ply", "missing.ply"),
     ] {
         let assert = pellicle(folder.path())
