@@ -44,7 +44,8 @@ const VIRIDIS: &[u8] = b"\
 impl ColorMap {
     /// The colour in sRGB at a share from 0 to 1; what lies outside has the colour of the nearer end, NaN that of 0.
     pub fn color(self, share: f64) -> [u8; 3] {
-        let share = share.max(0.0).min(1.0);
+        let share = if share.is_nan() { 0.0 } else { share };
+        let share = share.clamp(0.0, 1.0);
         match self {
             Self::Viridis => {
                 let entry = (share * 255.0 + 0.5) as usize;
