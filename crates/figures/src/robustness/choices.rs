@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 pub(super) const FIGURE: Figure = Figure {
     name: "robustness-choices",
     paper: Paper::Robustness,
-    number: "degenerate cases: choices",
+    number: "degenerate cases",
     title: "Choices at cocircular points",
     shows: "lets the program choose whether a cocircular point is in the disk or outside: either choice gives a triangulation, random choices \
             are inconsistent, and always \"outside\" gives different results for different orders of the same points.",
@@ -231,7 +231,7 @@ fn make(run: &Run<'_>) -> Result<Made, Error> {
         sheet,
         numbers,
         verdict: if unique {
-            Verdict::Better
+            Verdict::Agrees
         } else {
             Verdict::Different
         },

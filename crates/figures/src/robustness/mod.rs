@@ -11,6 +11,7 @@ mod orientation;
 mod perturbations;
 mod planar;
 mod stages;
+mod static_filter;
 mod theorem;
 mod toy;
 mod turn;
@@ -25,6 +26,7 @@ pub const FIGURES: &[Figure] = &[
     turn::FIGURE,
     walk::FIGURE,
     conflict::FIGURE,
+    static_filter::FIGURE,
     stages::FIGURE,
     perturbations::FIGURE,
 ];

@@ -216,7 +216,7 @@ fn make(run: &Run<'_>) -> Result<Made, Error> {
     let Some((query, cycle)) = &found[0].clearest else {
         return Err(Error::NotShown("no walk has a cycle".into()));
     };
-    let (plot, exact_failures) = by_distance(run, &mut numbers)?;
+    let (plot, [exact_failures, translated_failures]) = by_distance(run, &mut numbers)?;
     let mut sheet = Sheet::new(2).with(picture(&ground, *query, cycle));
     for map in maps {
         sheet.push(map);
@@ -234,18 +234,19 @@ fn make(run: &Run<'_>) -> Result<Made, Error> {
         because: format!(
             "The triangulation is Delaunay, by exact signs; the walk evaluates the printed determinant of three rows in doubles, on a cloud one unit \
              wide and {OFFSET} units from the origin. {} of {} walks cycle, around up to {} triangles, and {} end in a triangle that does not \
-             hold the query. With exact signs all arrive, here and at every other distance; where the differences of the points \
-             are exact, as they are here, so they do with the determinant of two rows.",
+             hold the query. With exact signs all arrive, here and at every other distance. The determinant of two rows leads {} of them astray: \
+             its differences are exact here.",
             found[0].cycles,
             SIDE * SIDE,
             found[0].longest,
             found[0].wrong,
+            translated_failures,
         ),
     })
 }
 
-/// Shares of walks that cycle, by the distance from the origin; and how many exact walks do not arrive.
-fn by_distance(run: &Run<'_>, numbers: &mut Vec<Number>) -> Result<(Panel, u32), Error> {
+/// Shares of walks that cycle, by the distance from the origin; and how many exact ones, and how many by two rows, do not arrive.
+fn by_distance(run: &Run<'_>, numbers: &mut Vec<Number>) -> Result<(Panel, [u32; 2]), Error> {
     let seeds = run.effort.pick(3, 20);
     let mut series = [
         ("printed", as_printed as Orientation),
@@ -253,7 +254,7 @@ fn by_distance(run: &Run<'_>, numbers: &mut Vec<Number>) -> Result<(Panel, u32),
         ("exact", orient2d),
     ]
     .map(|(name, sign)| (name, sign, Vec::new()));
-    let mut failures = 0;
+    let (mut failures, mut translated_failures) = (0, 0);
     for power in 3..=9 {
         run.step("distances", power - 3, 7)?;
         let offset = 10_f64.powi(power as i32);
@@ -269,9 +270,13 @@ fn by_distance(run: &Run<'_>, numbers: &mut Vec<Number>) -> Result<(Panel, u32),
             points.push(DVec2::new(offset, share));
             match *name {
                 "exact" => failures += cycles + wrong,
+                "differences" => translated_failures += cycles + wrong,
                 _ => numbers.push(
-                    Number::exactly(format!("walks that cycle at 10^{power}, {name}"), share)
-                        .unit("%"),
+                    Number::exactly(
+                        format!("walks that cycle, 10^{power} from the origin"),
+                        share,
+                    )
+                    .unit("%"),
                 ),
             }
         }
@@ -279,6 +284,10 @@ fn by_distance(run: &Run<'_>, numbers: &mut Vec<Number>) -> Result<(Panel, u32),
     numbers.push(Number::exactly(
         "walks that do not arrive at any distance, exact",
         f64::from(failures),
+    ));
+    numbers.push(Number::exactly(
+        "walks that do not arrive at any distance, determinant of two rows",
+        f64::from(translated_failures),
     ));
     let mut plot = Plot::new(
         Axis::new("distance from the origin, in widths of the cloud").logarithmic(),
@@ -294,7 +303,7 @@ fn by_distance(run: &Run<'_>, numbers: &mut Vec<Number>) -> Result<(Panel, u32),
     Ok((
         plot.panel(SIZE, SIZE)
             .caption(format!("{} walks each", seeds * 32 * 32)),
-        failures,
+        [failures, translated_failures],
     ))
 }
 
