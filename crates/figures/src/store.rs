@@ -101,3 +101,49 @@ fn path(folder: &Path, figure: &Figure, extension: &str) -> PathBuf {
 fn put(path: PathBuf, how: impl Fn(&Path) -> std::io::Result<()>) -> Result<(), Error> {
     how(&path).map_err(|reason| Error::File { path, reason })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn outcome(verdict: Verdict, value: f64) -> Outcome {
+        Outcome {
+            verdict,
+            because: String::new(),
+            numbers: vec![Number::within("a", value, 0.1).unit("m").paper("2")],
+        }
+    }
+
+    #[test]
+    fn another_verdict_is_a_difference() {
+        let stored = outcome(Verdict::Agrees, 1.0);
+        assert!(
+            stored
+                .differences(&outcome(Verdict::Agrees, 1.05))
+                .is_empty()
+        );
+        assert_eq!(
+            stored.differences(&outcome(Verdict::Different, 1.0)).len(),
+            1
+        );
+        assert_eq!(
+            stored.differences(&outcome(Verdict::Different, 2.0)).len(),
+            2
+        );
+    }
+
+    #[test]
+    fn what_is_written_is_read_to_the_last_bit() {
+        for value in [0.1 + 0.2, 1.0 / 3.0, 5e-324, f64::MAX, -65_536.0] {
+            let stored = Stored {
+                full: outcome(Verdict::Better, value),
+                quick: outcome(Verdict::Agrees, value.next_down()),
+            };
+            let text = serde_json::to_string(&stored).expect("JSON");
+            assert_eq!(
+                serde_json::from_str::<Stored>(&text).expect("the same"),
+                stored
+            );
+        }
+    }
+}

@@ -1,9 +1,11 @@
 //! Every figure, made with less effort, gives the numbers that are stored: what `cargo xtask figures --quick` checks. A
 //! test a paper, so that they run side by side.
 
+use pellicle::geometry::Progress;
 use pellicle_figures::store::{self, Outcome};
-use pellicle_figures::{Effort, Figure, Paper, Run, figures, page};
+use pellicle_figures::{Effort, Error, Figure, Paper, Run, figures, page, raster};
 use std::collections::BTreeSet;
+use std::ops::ControlFlow;
 
 /// Makes the paper's figures, and lists everything that is not as stored.
 fn check(paper: Paper) {
@@ -95,4 +97,39 @@ fn the_page_is_that_of_the_stored_numbers() {
     let path = store::folder().with_file_name("REPRODUCTION.md");
     let page = std::fs::read_to_string(path).expect("the page");
     assert!(page == page::page(&stored), "run `cargo xtask figures`");
+}
+
+#[test]
+fn a_sheet_is_the_same_every_time() {
+    let run = Run {
+        effort: Effort::Quick,
+        progress: &(),
+    };
+    for name in ["robustness-turn", "robustness-choices"] {
+        let figure = figures()
+            .find(|figure| figure.name == name)
+            .expect("the figure");
+        let [one, other] = [(); 2].map(|()| (figure.make)(&run).expect("a figure").sheet.svg());
+        assert!(one == other, "{name}");
+        let [one, other] = [one, other].map(|svg| raster::png(&svg).expect("a picture"));
+        assert!(one == other, "{name}");
+    }
+}
+
+#[test]
+fn an_observer_stops_a_figure() {
+    struct Stop;
+    impl Progress for Stop {
+        fn step(&self, _: &'static str, _: u64, _: u64) -> ControlFlow<()> {
+            ControlFlow::Break(())
+        }
+    }
+    let figure = figures()
+        .find(|figure| figure.name == "robustness-conflict")
+        .expect("the figure");
+    let made = (figure.make)(&Run {
+        effort: Effort::Full,
+        progress: &Stop,
+    });
+    assert!(matches!(made, Err(Error::Cancelled(_))));
 }
