@@ -1,10 +1,10 @@
 //! The region in conflict with a new point: star-shaped by exact signs, anything by rounded ones.
 
+use super::doubles;
 use super::planar::{Cavity, Defect, Planar, far_corners, is_inside, is_seen};
 use crate::sheet::{Axis, Color, Panel, Plot, Series, Style, Text};
 use crate::{Error, Figure, Made, Number, Paper, Random, Run, Sheet, Verdict};
 use pellicle::glam::DVec2;
-use pellicle::predicates::Sign;
 
 pub(super) const FIGURE: Figure = Figure {
     name: "robustness-conflict",
@@ -19,34 +19,8 @@ pub(super) const FIGURE: Figure = Figure {
 /// Points of a triangulation, without the far corners and the new one.
 const POINTS: usize = 40;
 
-/// The formulas of the in-disk test.
-#[derive(Clone, Copy)]
-enum Formula {
-    /// The slides' determinant of four rows 1, x, y, x² + y².
-    AsPrinted,
-    /// The same, the query moved into the origin first.
-    Translated,
-}
-
-fn plain(formula: Formula, [a, b, c]: [DVec2; 3], d: DVec2) -> Sign {
-    let area = |p: DVec2, q: DVec2| p.x * q.y - p.y * q.x;
-    match formula {
-        Formula::AsPrinted => {
-            let square = |p: DVec2| p.x * p.x + p.y * p.y;
-            // Along the last column; each cofactor is the orientation of the other three.
-            let turn = |p: DVec2, q: DVec2, r: DVec2| area(p, q) - area(p, r) + area(q, r);
-            Sign::of(
-                square(a) * turn(b, c, d) - square(b) * turn(a, c, d) + square(c) * turn(a, b, d)
-                    - square(d) * turn(a, b, c),
-            )
-        }
-        Formula::Translated => {
-            let [a, b, c] = [a, b, c].map(|p| p - d);
-            let square = |p: DVec2| p.x * p.x + p.y * p.y;
-            Sign::of(square(a) * area(b, c) - square(b) * area(a, c) + square(c) * area(a, b))
-        }
-    }
-}
+/// The in-disk test of three corners and a point, in doubles.
+type Formula = fn([DVec2; 3], DVec2) -> f64;
 
 /// Random multiples of 2⁻²⁰ in the unit square, which stay exact when they are moved, and a last one: the new point.
 fn points(seed: u64, offset: f64) -> Vec<DVec2> {
@@ -65,7 +39,7 @@ fn cavities(points: &[DVec2], formula: Formula) -> (Planar, Cavity, Cavity) {
     let planar = Planar::delaunay(&points[..new]);
     let exact = planar.cavity(points, new, |t| is_inside(points, t, new));
     let rounded = planar.cavity(points, new, |t| {
-        plain(formula, t.map(|i| points[i]), points[new]) == Sign::Positive
+        formula(t.map(|i| points[i]), points[new]) > 0.0
     });
     (planar, exact, rounded)
 }
@@ -106,7 +80,7 @@ fn search(run: &Run<'_>, defect: Defect) -> Result<u64, Error> {
     for seed in 0..SEEDS {
         run.step("search for regions", seed, SEEDS)?;
         let points = points(seed, OFFSET);
-        let (_, exact, rounded) = cavities(&points, Formula::AsPrinted);
+        let (_, exact, rounded) = cavities(&points, doubles::in_disk_of_rows);
         let inside = |cavity: &Cavity| cavity.region.iter().flatten().all(|&corner| corner > 2);
         let small = rounded.region.len() <= 14 && inside(&rounded) && inside(&exact);
         let area = turned_over(&points, &rounded).1;
@@ -136,7 +110,7 @@ fn make(run: &Run<'_>) -> Result<Made, Error> {
     ] {
         let seed = search(run, defect)?;
         let points = points(seed, OFFSET);
-        let (planar, exact, rounded) = cavities(&points, Formula::AsPrinted);
+        let (planar, exact, rounded) = cavities(&points, doubles::in_disk_of_rows);
         sheet.push(
             region(&points, &planar, &exact, &rounded)
                 .caption("exact signs: the region in conflict is star-shaped"),
@@ -188,8 +162,8 @@ fn by_distance(
         Axis::new("insertions, %").range(0.0, 100.0),
     );
     for (formula, name) in [
-        (Formula::AsPrinted, "printed determinant"),
-        (Formula::Translated, "query in the origin"),
+        (doubles::in_disk_of_rows as Formula, "printed determinant"),
+        (doubles::in_disk, "query in the origin"),
     ] {
         let mut defects = Vec::new();
         let mut others = Vec::new();
@@ -198,7 +172,7 @@ fn by_distance(
             let offset = 10_f64.powi(power as i32);
             let rates = rates(offset, formula, trials);
             let share = |count: u32| 100.0 * f64::from(count) / trials as f64;
-            if matches!(formula, Formula::AsPrinted) {
+            if name == "printed determinant" {
                 for (what, count) in [
                     ("other regions", rates.other_region),
                     ("not star-shaped", rates.not_star_shaped),
@@ -337,20 +311,6 @@ fn mark(panel: &mut Panel, point: DVec2) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pellicle::predicates::incircle;
-
-    #[test]
-    fn both_formulas_have_the_sign_of_the_exact_test_where_it_is_clear() {
-        let [a, b, c] = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(DVec2::from);
-        for d in [[0.5, 0.5], [0.9, 0.8], [2.0, 2.0], [-1.0, 0.0]].map(DVec2::from) {
-            for corners in [[a, b, c], [b, a, c]] {
-                let exact = incircle(corners[0], corners[1], corners[2], d);
-                for formula in [Formula::AsPrinted, Formula::Translated] {
-                    assert_eq!(plain(formula, corners, d), exact, "{d}");
-                }
-            }
-        }
-    }
 
     #[test]
     fn moving_the_points_is_exact() {

@@ -2,14 +2,15 @@
 //! and symbolic perturbation do about it.
 
 use crate::Figure;
-use crate::sheet::{Color, Style};
-use pellicle::predicates::Sign;
 
 mod choices;
 mod conflict;
+mod doubles;
+mod in_disk;
 mod orientation;
 mod perturbations;
 mod planar;
+mod sign_map;
 mod stages;
 mod static_filter;
 mod theorem;
@@ -19,6 +20,7 @@ mod walk;
 
 /// All of them, in the slides' order.
 pub const FIGURES: &[Figure] = &[
+    in_disk::FIGURE,
     choices::FIGURE,
     toy::FIGURE,
     orientation::FIGURE,
@@ -30,22 +32,3 @@ pub const FIGURES: &[Figure] = &[
     stages::FIGURE,
     perturbations::FIGURE,
 ];
-
-/// The three colours of signs.
-fn color(sign: Sign) -> Color {
-    match sign {
-        Sign::Positive => Color::BLUE,
-        Sign::Zero => Color::YELLOW,
-        Sign::Negative => Color::VERMILION,
-    }
-}
-
-/// What they mean.
-fn sign_legend() -> [(Style, &'static str); 3] {
-    let entry = |sign, words| (Style::fill(color(sign)).outlined(Color::WHITE, 1.0), words);
-    [
-        entry(Sign::Positive, "> 0"),
-        entry(Sign::Zero, "= 0"),
-        entry(Sign::Negative, "< 0"),
-    ]
-}

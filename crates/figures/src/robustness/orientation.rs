@@ -3,11 +3,11 @@
 //! p = (0.5 + x·u, 0.5 + y·u) with 0 ≤ x, y < 256 and u = 2⁻⁵³; q = (12, 12); r = (24, 24). The line through q and r is
 //! the diagonal, so that the true sign is that of y − x.
 
-use crate::sheet::{Panel, Sampling};
-use crate::{Error, Figure, Made, Number, Paper, Run, Sheet, Verdict};
+use super::doubles;
+use super::sign_map::SignMap;
+use crate::{Error, Figure, Made, Paper, Run, Sheet, Verdict};
 use pellicle::glam::DVec2;
 use pellicle::predicates::{Sign, orient2d};
-use pellicle::render::Image;
 
 pub(super) const FIGURE: Figure = Figure {
     name: "robustness-orientation",
@@ -28,29 +28,6 @@ const UNIT: f64 = 1.0 / (1_u64 << 53) as f64;
 const Q: DVec2 = DVec2::splat(12.0);
 const R: DVec2 = DVec2::splat(24.0);
 
-/// The formulas that the picture compares.
-#[derive(Clone, Copy)]
-enum Formula {
-    /// (qx − px)(ry − py) − (qy − py)(rx − px), as the slides print it.
-    DifferencesFromP,
-    /// The same determinant, with all differences taken from r.
-    DifferencesFromR,
-    /// `predicates::orient2d`.
-    Exact,
-}
-
-fn sign(formula: Formula, p: DVec2) -> Sign {
-    match formula {
-        Formula::DifferencesFromP => {
-            Sign::of((Q.x - p.x) * (R.y - p.y) - (Q.y - p.y) * (R.x - p.x))
-        }
-        Formula::DifferencesFromR => {
-            Sign::of((p.x - R.x) * (Q.y - R.y) - (p.y - R.y) * (Q.x - R.x))
-        }
-        Formula::Exact => orient2d(p, Q, R),
-    }
-}
-
 /// The sign that is right: p is to the left of the diagonal from q to r when y is larger than x.
 fn truth(x: u32, y: u32) -> Sign {
     match y.cmp(&x) {
@@ -61,79 +38,36 @@ fn truth(x: u32, y: u32) -> Sign {
 }
 
 /// What one formula says about all points.
-struct Signs {
-    image: Image,
-    wrong: u32,
-    zero: u32,
-    /// Wrong, and neither is zero: left for right.
-    opposite: u32,
-}
-
-fn signs(formula: Formula) -> Signs {
-    let mut signs = Signs {
-        image: Image {
-            width: SIDE,
-            height: SIDE,
-            pixels: Vec::new(),
-        },
-        wrong: 0,
-        zero: 0,
-        opposite: 0,
-    };
-    // Rows from the top: y goes up.
-    for y in (0..SIDE).rev() {
-        for x in 0..SIDE {
-            let p = DVec2::splat(0.5) + UNIT * DVec2::new(f64::from(x), f64::from(y));
-            let [found, true_sign] = [sign(formula, p), truth(x, y)];
-            signs.wrong += u32::from(found != true_sign);
-            signs.zero += u32::from(found == Sign::Zero);
-            signs.opposite += u32::from(found == -true_sign && found != true_sign);
-            let [red, green, blue] = super::color(found).0;
-            signs.image.pixels.push([red, green, blue, 255]);
-        }
-    }
-    signs
+fn map(sign: &dyn Fn(DVec2) -> Sign) -> SignMap {
+    let at = |x: u32, y: u32| DVec2::splat(0.5) + UNIT * DVec2::new(f64::from(x), f64::from(y));
+    SignMap::new(SIDE, |x, y| sign(at(x, y)), truth)
 }
 
 /// The same for quick and full: it takes milliseconds.
 fn make(run: &Run<'_>) -> Result<Made, Error> {
-    let cases = [
-        (
-            Formula::DifferencesFromP,
-            "doubles",
-            "doubles: (q − p) × (r − p), as the slides print it",
-        ),
-        (
-            Formula::DifferencesFromR,
-            "doubles, from r",
-            "doubles: (p − r) × (q − r), the same determinant",
-        ),
-        (Formula::Exact, "exact", "pellicle::predicates::orient2d"),
-    ];
+    run.step("signs", 0, 1)?;
     let mut sheet = Sheet::new(3);
     let mut numbers = Vec::new();
     let mut wrong = Vec::new();
-    for (done, (formula, name, words)) in cases.into_iter().enumerate() {
-        run.step("signs", done as u64, 3)?;
-        let signs = signs(formula);
-        let size = DVec2::splat(300.0);
-        let mut panel = Panel::pixels(size.x, size.y).caption(words);
-        panel.picture(DVec2::ZERO, size, &signs.image, Sampling::Squares)?;
-        panel.legend(DVec2::new(10.0, 10.0), &super::sign_legend());
-        sheet.push(panel);
-        numbers.push(Number::exactly(
-            format!("wrong signs, {name}"),
-            f64::from(signs.wrong),
-        ));
-        numbers.push(Number::exactly(
-            format!("left for right, {name}"),
-            f64::from(signs.opposite),
-        ));
-        numbers.push(Number::exactly(
-            format!("zeros, {name}"),
-            f64::from(signs.zero),
-        ));
-        wrong.push(signs.wrong);
+    for (name, caption, sign) in [
+        (
+            "doubles",
+            "doubles: (q − p) × (r − p), as the slides print it",
+            &(|p| Sign::of(doubles::orient(p, Q, R))) as &dyn Fn(DVec2) -> Sign,
+        ),
+        (
+            "doubles, from r",
+            "doubles: (p − r) × (q − r), the same determinant",
+            &|p| Sign::of(doubles::orient(R, p, Q)),
+        ),
+        ("exact", "pellicle::predicates::orient2d", &|p| {
+            orient2d(p, Q, R)
+        }),
+    ] {
+        let map = map(sign);
+        sheet.push(map.panel(300.0)?.caption(caption));
+        numbers.extend(map.numbers(name));
+        wrong.push(map.wrong);
     }
     if wrong[0] == 0 {
         return Err(Error::NotShown("plain doubles are never wrong".into()));
@@ -147,9 +81,8 @@ fn make(run: &Run<'_>) -> Result<Made, Error> {
             Verdict::Different
         },
         because: format!(
-            "Plain doubles give the slide's blocks: {} of 65536 signs are wrong, and another order of the same \
-             operations gives other blocks. The exact predicate gives one straight border, one point wide, and is \
-             wrong {} times.",
+            "Plain doubles give the slide's blocks: {} of 65536 signs are wrong, and another order of the same operations gives other blocks. The \
+             exact predicate gives one straight border, one point wide, and is wrong {} times.",
             wrong[0], wrong[2]
         ),
     })
@@ -191,12 +124,12 @@ mod tests {
 
     #[test]
     fn the_picture_has_the_signs() {
-        let exact = signs(Formula::Exact);
+        let exact = map(&|p| orient2d(p, Q, R));
         assert_eq!((exact.wrong, exact.zero), (0, SIDE));
         // Upper left: y large, x small.
         assert_eq!(
             exact.image.pixels[0][..3],
-            super::super::color(Sign::Positive).0
+            super::super::sign_map::color(Sign::Positive).0
         );
     }
 }

@@ -1,5 +1,6 @@
 //! The error of an orientation in doubles against the bound 2⁻⁴⁸ M², and what a filter with that bound decides.
 
+use super::doubles;
 use crate::sheet::{Axis, Color, Plot, Series};
 use crate::{Error, Figure, Made, Number, Paper, Random, Run, Sheet, Verdict};
 use pellicle::glam::DVec2;
@@ -13,11 +14,6 @@ pub(super) const FIGURE: Figure = Figure {
     shows: "derives that the orientation of points with coordinates up to M, in doubles, is off by at most 2⁻⁴⁸ M²: a sign beyond that is sure.",
     make,
 };
-
-/// (qx − px)(ry − py) − (qy − py)(rx − px), in doubles.
-fn plain([p, q, r]: [DVec2; 3]) -> f64 {
-    (q.x - p.x) * (r.y - p.y) - (q.y - p.y) * (r.x - p.x)
-}
 
 /// M = 1.
 const BOUND: f64 = 1.0 / (1_u64 << 48) as f64;
@@ -37,9 +33,9 @@ fn exact(points: [DVec2; 3]) -> i128 {
 }
 
 /// How far doubles are off, exactly but for one rounding at the end.
-fn error(points: [DVec2; 3]) -> f64 {
+fn error(points @ [p, q, r]: [DVec2; 3]) -> f64 {
     // A multiple of the unit: rounding makes no smaller digits.
-    let rounded = (plain(points) * STEPS * STEPS) as i128;
+    let rounded = (doubles::orient(p, q, r) * STEPS * STEPS) as i128;
     (rounded - exact(points)).unsigned_abs() as f64 / STEPS / STEPS
 }
 
@@ -66,7 +62,7 @@ fn near(random: &mut Random, distance: f64, trials: u32) -> Near {
             -distance
         };
         let r = p + (q - p) * random.unit() + (q - p).perp().normalize_or_zero() * side;
-        let value = plain([p, q, r]);
+        let value = doubles::orient(p, q, r);
         let right = Sign::of(value) == orient2d(p, q, r);
         let sure = value.abs() > BOUND;
         near.sure += u32::from(sure);

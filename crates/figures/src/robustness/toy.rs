@@ -1,10 +1,10 @@
 //! Arithmetic with two decimal digits, and what it makes of sums and of an orientation.
 
-use crate::sheet::{Anchor, Color, Panel, Sampling, Style, Text};
+use super::sign_map::SignMap;
+use crate::sheet::{Anchor, Color, Panel, Style, Text};
 use crate::{Error, Figure, Made, Number, Paper, Run, Sheet, Verdict};
 use pellicle::glam::DVec2;
 use pellicle::predicates::{Sign, orient2d};
-use pellicle::render::Image;
 use std::fmt;
 
 pub(super) const FIGURE: Figure = Figure {
@@ -135,8 +135,9 @@ fn make(_: &Run<'_>) -> Result<Made, Error> {
     let [one, two, three] = [Toy::of(35), Toy::rounded(33, -1), Toy::rounded(4, -1)];
     let [left, right] = [one.plus(two).plus(three), one.plus(two.plus(three))];
     let toy = orientation(P, Q, R);
-    let (toy_map, wrong) = map(|r| orientation(P, Q, r).result.sign());
-    let (exact_map, none) = map(|r| exact_sign(P, Q, r));
+    let toy_map = map(|r| orientation(P, Q, r).result.sign());
+    let exact_map = map(|r| exact_sign(P, Q, r));
+    let [wrong, none] = [&toy_map, &exact_map].map(|map| map.wrong);
     let numbers = vec![
         Number::exactly("(35 + 3.3) + 0.4", left.value()).paper("38"),
         Number::exactly("35 + (3.3 + 0.4)", right.value()).paper("39"),
@@ -213,33 +214,22 @@ fn steps(left: Toy, right: Toy, toy: &Orientation) -> Panel {
     panel
 }
 
-/// The signs for every r with coordinates from 0 to 99, and how many are wrong.
-fn map(sign: impl Fn(Point) -> Sign) -> (Image, u32) {
-    let mut wrong = 0;
-    let mut pixels = Vec::new();
-    for y in (0..100).rev() {
-        for x in 0..100 {
-            let found = sign([x, y]);
-            wrong += u32::from(found != Sign::of(exact(P, Q, [x, y]) as f64));
-            let [red, green, blue] = super::color(found).0;
-            pixels.push([red, green, blue, 255]);
-        }
-    }
-    let image = Image {
-        width: 100,
-        height: 100,
-        pixels,
-    };
-    (image, wrong)
+/// The signs for every r with coordinates from 0 to 99.
+fn map(sign: impl Fn(Point) -> Sign) -> SignMap {
+    let at = |x: u32, y: u32| [x, y].map(i64::from);
+    SignMap::new(
+        100,
+        |x, y| sign(at(x, y)),
+        |x, y| Sign::of(exact(P, Q, at(x, y)) as f64),
+    )
 }
 
-fn picture(map: &Image, caption: &str) -> Result<Panel, Error> {
-    let size = DVec2::splat(270.0);
-    let mut panel = Panel::pixels(size.x, size.y).caption(caption);
-    panel.picture(DVec2::ZERO, size, map, Sampling::Squares)?;
-    panel.legend(DVec2::new(10.0, 10.0), &super::sign_legend());
-    let r = (position(R) + DVec2::splat(0.5)) * 2.7;
-    let r = DVec2::new(r.x, 270.0 - r.y);
+fn picture(map: &SignMap, caption: &str) -> Result<Panel, Error> {
+    const SIZE: f64 = 270.0;
+    let mut panel = map.panel(SIZE)?.caption(caption);
+    // The middle of r's square, in pixels.
+    let r = (position(R) + DVec2::splat(0.5)) * (SIZE / 100.0);
+    let r = DVec2::new(r.x, SIZE - r.y);
     panel.dot(
         r,
         4.0,

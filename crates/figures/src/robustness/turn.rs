@@ -1,5 +1,6 @@
 //! Turning around a vertex from triangle to triangle: with a wrong sign the start never comes again.
 
+use super::doubles;
 use super::toy::{self, Point};
 use crate::sheet::{Color, Panel, Style, Text};
 use crate::{Error, Figure, Made, Number, Paper, Run, Sheet, Verdict};
@@ -77,9 +78,8 @@ fn toy_sign(a: DVec2, b: DVec2, c: DVec2) -> Sign {
     toy::orientation(a, b, c).result.sign()
 }
 
-/// (b − a) × (c − a), in doubles.
 fn plain(a: DVec2, b: DVec2, c: DVec2) -> Sign {
-    Sign::of((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x))
+    Sign::of(doubles::orient(a, b, c))
 }
 
 /// The first point of the orientation picture for which doubles take left for right, as v between neighbours on the diagonal.
