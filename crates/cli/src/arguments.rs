@@ -3,7 +3,7 @@
 use crate::commands::{
     compare::Compare, convert::Convert, delaunay::Delaunay, evolve::Evolve, info::Info,
     morph::Morph, normals::Normals, reconstruct::Reconstruct, remesh::Remesh, render::Render,
-    repair::Repair, smooth::Smooth,
+    repair::Repair, smooth::Smooth, view::View,
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::num::NonZeroUsize;
@@ -40,6 +40,7 @@ pub enum Verb {
     Repair(Repair),
     Compare(Compare),
     Render(Render),
+    View(View),
 }
 
 /// What every verb understands; shown after what only one verb does.

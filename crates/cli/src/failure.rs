@@ -97,6 +97,28 @@ pub enum Failure {
         /// The reason.
         reason: render::Error,
     },
+    /// A file holds no point.
+    #[error("{}: holds no point, so there is nothing to show", .path.display())]
+    NothingToShow {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A folder holds no numbered mesh.
+    #[error("{}: is a directory without numbered meshes or points such as step-000010.ply", .path.display())]
+    NoSteps {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A page would be larger than a browser takes.
+    #[error("{}: the page would have {bytes} bytes; browsers take about {most}", .path.display())]
+    PageTooLarge {
+        /// The page.
+        path: PathBuf,
+        /// Its size.
+        bytes: usize,
+        /// What can be read.
+        most: usize,
+    },
     /// The output's extension does not name a format that can hold the result.
     #[error("{}: {verb} cannot write this format; it writes {known}", .path.display())]
     OutputFormat {
@@ -194,6 +216,7 @@ impl Failure {
             Self::Open { .. } => {
                 "close it first; or --rule outside keeps what is seen from outside, and the borders"
             }
+            Self::PageTooLarge { .. } => "show fewer steps, or remesh with longer edges first",
             Self::SameOutput { .. } => "name different files",
             _ => return None,
         })

@@ -6,6 +6,7 @@ mod commands;
 mod failure;
 mod interrupt;
 mod output;
+mod page;
 mod progress;
 mod scalar;
 mod snapshots;

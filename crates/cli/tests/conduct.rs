@@ -10,7 +10,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::tempdir;
 
-const VERBS: [&str; 12] = [
+const VERBS: [&str; 13] = [
     "reconstruct",
     "evolve",
     "morph",
@@ -23,6 +23,7 @@ const VERBS: [&str; 12] = [
     "repair",
     "compare",
     "render",
+    "view",
 ];
 
 #[test]
@@ -54,6 +55,10 @@ fn wrong_usage_exits_with_2() {
             "render", &kitten, "-o", "a.png", "--scalar", "x", "--range", "0,nan",
         ],
         &["render", &kitten, "-o", "a.png", "--edge-width", "-1"],
+        &["view", &kitten],
+        &["view", "-o", "a.html"],
+        &["view", &kitten, "-o", "a.html", "--as", "heap"],
+        &["view", &kitten, "-o", "a.html", "--seconds", "0"],
         &["evolve", &kitten, "-o", "a.ply", "--every", "5"],
         &["evolve", &kitten, "-o", "a.ply", "--grid", "3"],
         &["evolve", &kitten, "-o", "a.ply", "--sigma", "17"],
@@ -105,6 +110,7 @@ fn all_refuse(input: &str, content: Option<&[u8]>, reason: &str) {
             "compare" => drop(command.arg(input)),
             "morph" => drop(command.args([input, "-o", "out.ply"])),
             "render" => drop(command.args(["-o", "out.png"])),
+            "view" => drop(command.args(["-o", "out.html"])),
             _ => drop(command.args(["-o", "out.ply"])),
         }
         let assert = command.assert().code(1);
@@ -166,6 +172,7 @@ fn nothing_is_overwritten_without_force() {
         ("normals", "out.ply"),
         ("evolve", "out.ply"),
         ("render", "out.png"),
+        ("view", "out.html"),
     ] {
         let folder = tempdir().unwrap();
         let path = folder.path().join(out);
@@ -202,6 +209,7 @@ fn what_a_format_cannot_hold_is_said_before_the_work() {
         (["delaunay", &half, "-o", "out.xyz"], "vtk"),
         (["normals", &half, "-o", "out.stl"], "ply"),
         (["render", &half, "-o", "out.jpg"], "png"),
+        (["view", &half, "-o", "out.png"], "html"),
         (
             ["convert", &fixture("analytic/cube.off"), "-o", "out.pcd"],
             "ply",
@@ -255,6 +263,7 @@ fn a_full_disk_is_an_error() {
     for arguments in [
         &["convert", &half, "-o", "full.ply", "--force"][..],
         &["render", &half, "-o", "full.png", "--force"],
+        &["view", &half, "-o", "full.html", "--force"],
         &["delaunay", &half, "-o", "full.vtk", "--force"],
         &["evolve", &half, "-o", "full.off", "--force"],
         &["repair", &cube, "-o", "full.stl", "--force"],

@@ -340,6 +340,7 @@ fn every_verb_reports_as_json() {
         ("convert", "c.ply"),
         ("normals", "n.ply"),
         ("render", "p.png"),
+        ("view", "p.html"),
         ("evolve", "e.ply"),
     ] {
         let done = json(folder.path(), &[verb, &kitten, "-o", out]);

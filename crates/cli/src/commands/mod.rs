@@ -12,6 +12,7 @@ pub mod remesh;
 pub mod render;
 pub mod repair;
 pub mod smooth;
+pub mod view;
 
 use crate::arguments::{Global, Verb};
 use crate::failure::Failure;
@@ -40,6 +41,7 @@ pub fn run(verb: Verb, global: &Global) -> Result<(), Failure> {
         Verb::Repair(verb) => verb.run(global, &watch),
         Verb::Compare(verb) => verb.run(global, &watch),
         Verb::Render(verb) => verb.run(global, &watch),
+        Verb::View(verb) => verb.run(global, &watch),
     }
 }
 
