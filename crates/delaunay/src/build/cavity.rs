@@ -137,6 +137,10 @@ impl Worker {
         while next < cavity.conflict_count {
             let tet = cavity.conflict[next];
             next += 1;
+            if next + 1 < cavity.conflict_count {
+                let twins = cells.twins(cavity.conflict[next + 1]);
+                four(|i| cells.prefetch_corners(twins[i].tet()));
+            }
             let corners = cells.corners(tet);
             let twins = cells.twins(tet);
             let marks = four(|i| cells.mark(twins[i].tet()));
@@ -172,6 +176,7 @@ impl Worker {
                 } else if inside >> i & 1 == 1 && !cells.claim(neighbor, mine) {
                     return false;
                 }
+                cells.prefetch_twins(neighbor);
                 cavity.conflict[cavity.conflict_count] = neighbor;
                 cavity.conflict_count += usize::from(inside >> i & 1);
                 true

@@ -5,6 +5,8 @@
 
 use crate::{FacetId, TetId};
 use pellicle_geometry::VertexId;
+use prefetch_index::prefetch_index;
+use rayon::prelude::*;
 use std::sync::atomic::{AtomicU32, Ordering::*};
 
 /// The first corner's word holds the vertex in these bits and the mark in the others, so that a look at a
@@ -21,6 +23,9 @@ pub(super) const AT_REST: u8 = 0;
 pub(super) const VACANT: u8 = 15;
 /// The mark of a slot that holds no tetrahedron and that a worker keeps for a new one.
 pub(super) const KEPT: u8 = 14;
+
+/// Fewer slots than these are one thread's work.
+const LEAST_SHARED: usize = 1 << 14;
 
 #[derive(Default)]
 pub(super) struct Cells {
@@ -51,15 +56,24 @@ impl Cells {
         self.twins.clear();
     }
 
-    /// Adds vacant slots until there are `len`.
+    /// Adds vacant slots until there are `len`. Whoever writes first to new memory waits until it is there, so
+    /// threads do it together.
     pub(super) fn grow(&mut self, len: usize) {
-        self.corners.resize_with(len, || {
-            let mut corners = [const { AtomicU32::new(0) }; 4];
-            *corners[0].get_mut() = u32::from(VACANT) << MARK_SHIFT;
-            corners
-        });
-        self.twins
-            .resize_with(len, || [const { AtomicU32::new(0) }; 4]);
+        let new = self.len()..len.max(self.len());
+        let row = |first: u32| {
+            let mut row = [const { AtomicU32::new(0) }; 4];
+            *row[0].get_mut() = first;
+            row
+        };
+        let vacant = u32::from(VACANT) << MARK_SHIFT;
+        if new.len() < LEAST_SHARED {
+            self.corners.resize_with(new.end, || row(vacant));
+            self.twins.resize_with(new.end, || row(0));
+        } else {
+            let corners = new.clone().into_par_iter().map(|_| row(vacant));
+            self.corners.par_extend(corners);
+            self.twins.par_extend(new.into_par_iter().map(|_| row(0)));
+        }
     }
 
     /// Moves the tetrahedra apart, in their order, so that they are spread evenly over `len` slots: each
@@ -72,22 +86,34 @@ impl Cells {
             return;
         }
         self.grow(len);
+        let cells = &*self;
         let step = ((len as u64) << FRACTION) / old as u64;
         let place = |slot: u32| ((u64::from(slot) * step) >> FRACTION) as u32;
-        // From the last one down: none is overwritten before it has moved.
-        for slot in (0..old as u32).rev() {
+        let spread = |slot: u32| {
             let from = TetId(slot);
-            let mark = self.mark(from);
-            let corners = self.corners(from);
-            self.set_mark(from, VACANT);
+            let mark = cells.mark(from);
+            let corners = cells.corners(from);
+            cells.set_mark(from, VACANT);
             if mark == AT_REST {
                 let to = TetId(place(slot));
-                let twins = self.twins(from);
+                let twins = cells.twins(from);
                 let renamed =
                     |twin: FacetId| FacetId::of(TetId(place(twin.tet().0)), twin.corner());
-                self.set(to, corners, twins.map(renamed), AT_REST);
+                cells.set(to, corners, twins.map(renamed), AT_REST);
             }
+        };
+        // Those that leave the slots in use do not meet each other there; then those that leave what they left.
+        let mut end = old as u32;
+        loop {
+            let start = (u64::from(end) << FRACTION).div_ceil(step) as u32;
+            if ((end - start) as usize) < LEAST_SHARED {
+                break;
+            }
+            (start..end).into_par_iter().for_each(spread);
+            end = start;
         }
+        // From the last one down: none is overwritten before it has moved.
+        (0..end).rev().for_each(spread);
     }
 
     /// How many slots hold a tetrahedron.
@@ -130,6 +156,18 @@ impl Cells {
         slots[3].store(corners[3].0, Relaxed);
         let slots = &self.twins[tet.index()];
         four(|i| slots[i].store(twins[i].0, Relaxed));
+    }
+
+    /// Says that the corners of a tetrahedron, and its mark, will be wanted soon.
+    #[inline(always)]
+    pub(super) fn prefetch_corners(&self, tet: TetId) {
+        prefetch_index(&self.corners, tet.index());
+    }
+
+    /// Says that the twins of a tetrahedron will be wanted soon.
+    #[inline(always)]
+    pub(super) fn prefetch_twins(&self, tet: TetId) {
+        prefetch_index(&self.twins, tet.index());
     }
 
     #[inline(always)]

@@ -5,6 +5,7 @@ use crate::{FacetId, TetId, Tetrahedralization, id::facet_vertices};
 use glam::DVec3;
 use pellicle_geometry::VertexId;
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 impl Kernel {
     /// Puts the tetrahedra into an order that does not depend on how they came to be, and names the
@@ -31,7 +32,7 @@ impl Kernel {
         twins.par_iter_mut().for_each(|twins| {
             *twins = twins.map(|twin| FacetId::of(TetId(of[twin.tet().index()]), twin.corner()));
         });
-        arrange(&mut of, &mut tets, &mut twins);
+        Rows::new(&mut of, &mut tets, &mut twins).arrange();
         drop(of);
         tets.truncate(used);
         twins.truncate(used);
@@ -81,8 +82,18 @@ fn latest_first(tets: &mut [[VertexId; 4]], twins: &mut [[FacetId; 4]]) {
     }
 }
 
-/// By slot the tetrahedron's place in the result; those of slots without one come last.
+/// No slot.
+const NONE: u32 = u32::MAX;
+
+/// The first corner of a slot without a tetrahedron.
+const UNUSED: VertexId = VertexId::NONE;
+
+/// Up to this many tetrahedra of one latest vertex, all are compared with all.
+const MOST_COMPARED: usize = 64;
+
+/// Where the tetrahedra go.
 struct Places {
+    /// By slot the place in the result; those of slots without a tetrahedron come last.
     of: Vec<u32>,
     /// How many places are finite tetrahedra'.
     finite: usize,
@@ -90,97 +101,215 @@ struct Places {
     used: usize,
 }
 
-/// No slot.
-const NONE: u32 = u32::MAX;
-
-/// The first corner of a slot without a tetrahedron.
-const UNUSED: VertexId = VertexId::NONE;
-
 fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
-    // 1. By latest vertex, the list of its finite tetrahedra: the last one here, the one before in `of`.
+    let slots = (0..tets.len()).into_par_iter();
+    let of: Vec<AtomicU32> = slots.map(|_| AtomicU32::new(NONE)).collect();
     let mut last = vec![NONE; vertices];
-    let mut of = vec![NONE; tets.len()];
-    let mut infinite: Vec<u32> = Vec::new();
-    for (t, tet) in tets.iter().enumerate() {
-        if tet[0] == UNUSED {
-            continue;
-        }
-        if tet[3] == INFINITE {
-            infinite.push(t as u32);
-        } else {
-            of[t] = std::mem::replace(&mut last[tet[0].index()], t as u32);
-        }
+    // Each thread has some of the vertices, and goes through all slots for the tetrahedra of these.
+    let share = vertices.div_ceil(rayon::current_num_threads());
+    let lists: Vec<Lists> = last
+        .par_chunks_mut(share)
+        .enumerate()
+        .map(|(part, last)| Lists::gather(tets, &of, part * share, last))
+        .collect();
+    let mut finite = 0;
+    let mut starts = Vec::new();
+    for lists in &lists {
+        starts.push(finite);
+        finite += lists.finite;
     }
-    // 2. Each list in order, and in place of the list the places. Of two tetrahedra with the same latest
-    //    and least corners no two have the same second one: they would share a facet and lie on the same
-    //    side of it.
-    let mut used = 0;
-    let mut list: Vec<(u64, u32)> = Vec::new();
-    for mut t in last {
-        while t != NONE {
-            let [_, second, _, least] = tets[t as usize];
-            list.push((u64::from(least.0) << 32 | u64::from(second.0), t));
-            t = of[t as usize];
-        }
-        list.sort_unstable();
-        for (_, t) in list.drain(..) {
-            of[t as usize] = used;
-            used += 1;
-        }
-    }
-    let finite = used as usize;
-    infinite.sort_unstable_by_key(|&t| tets[t as usize]);
+    last.par_chunks(share)
+        .zip(starts)
+        .for_each(|(lists, start)| number(tets, &of, lists, start));
+
+    let mut infinite: Vec<u32> = lists.into_iter().flat_map(|lists| lists.infinite).collect();
+    infinite.par_sort_unstable_by_key(|&t| tets[t as usize]);
+    let mut used = finite;
     let unused = (0..tets.len() as u32).filter(|&t| tets[t as usize][0] == UNUSED);
-    let slots_used = finite + infinite.len();
+    let slots_used = finite as usize + infinite.len();
     for t in infinite.into_iter().chain(unused) {
-        of[t as usize] = used;
+        of[t as usize].store(used, Relaxed);
         used += 1;
     }
     Places {
-        of,
-        finite,
+        of: of.into_iter().map(AtomicU32::into_inner).collect(),
+        finite: finite as usize,
         used: slots_used,
     }
 }
 
-/// Moves the tetrahedra, with their places, to these places.
-///
-/// Slots and places run about alike, but swapping along the cycles of the permutation would jump through all of
-/// memory all the same. So each goes into the right block first, to where the blocks' next free places are,
-/// which are few enough to stay in the cache; then to its place in the block (McIlroy et al. 1993).
-fn arrange(of: &mut [u32], tets: &mut [[VertexId; 4]], twins: &mut [[FacetId; 4]]) {
-    const BLOCK: u32 = 1 << 15;
-    let count = of.len() as u32;
-    let mut swap = |of: &mut [u32], one: u32, other: u32| {
-        let (one, other) = (one as usize, other as usize);
-        of.swap(one, other);
-        tets.swap(one, other);
-        twins.swap(one, other);
-    };
-    let blocks = count.div_ceil(BLOCK);
-    let mut next: Vec<u32> = (0..blocks).map(|block| block * BLOCK).collect();
-    for block in 0..blocks {
-        let end = (block + 1).saturating_mul(BLOCK).min(count);
-        let mut slot = next[block as usize];
-        while slot < end {
-            let home = of[slot as usize] / BLOCK;
-            if home == block {
-                slot += 1;
+/// What was found for some of the vertices.
+struct Lists {
+    finite: u32,
+    infinite: Vec<u32>,
+}
+
+impl Lists {
+    /// By latest vertex, from `start` on, the list of its finite tetrahedra: the last one in `last`, the one before each in
+    /// `of`.
+    fn gather(tets: &[[VertexId; 4]], of: &[AtomicU32], start: usize, last: &mut [u32]) -> Self {
+        let (mut finite, mut infinite) = (0, Vec::new());
+        for (t, tet) in tets.iter().enumerate() {
+            let Some(last) = last.get_mut(tet[0].index().wrapping_sub(start)) else {
                 continue;
+            };
+            if tet[3] == INFINITE {
+                infinite.push(t as u32);
+            } else {
+                of[t].store(std::mem::replace(last, t as u32), Relaxed);
+                finite += 1;
             }
-            // Those before `next` are home; so may be the next ones.
-            let place = &mut next[home as usize];
-            while of[*place as usize] / BLOCK == home {
-                *place += 1;
-            }
-            let place = *place;
-            next[home as usize] += 1;
-            swap(of, slot, place);
         }
-        for slot in block * BLOCK..end {
-            while of[slot as usize] != slot {
-                let place = of[slot as usize];
-                swap(of, slot, place);
+        Self { finite, infinite }
+    }
+}
+
+/// Each list in order, and in place of the list the places, from `next` on.
+///
+/// Of two tetrahedra with the same latest and least corners no two have the same second one: they would share a facet
+/// and lie on the same side of it.
+fn number(tets: &[[VertexId; 4]], of: &[AtomicU32], lists: &[u32], mut next: u32) {
+    let mut keys = Vec::new();
+    let mut slots = Vec::new();
+    for &first in lists {
+        let mut t = first;
+        keys.clear();
+        slots.clear();
+        while t != NONE {
+            let [_, second, _, least] = tets[t as usize];
+            keys.push(u64::from(least.0) << 32 | u64::from(second.0));
+            slots.push(t);
+            t = of[t as usize].load(Relaxed);
+        }
+        if keys.len() <= MOST_COMPARED {
+            // Comparing all with all takes no branch that could be foreseen wrongly.
+            for (&t, &key) in slots.iter().zip(&keys) {
+                let rank: u32 = keys.iter().map(|&other| u32::from(other < key)).sum();
+                of[t as usize].store(next + rank, Relaxed);
+            }
+        } else {
+            slots.sort_unstable_by_key(|&t| {
+                let [_, second, _, least] = tets[t as usize];
+                (least, second)
+            });
+            for (rank, &t) in slots.iter().enumerate() {
+                of[t as usize].store(next + rank as u32, Relaxed);
+            }
+        }
+        next += slots.len() as u32;
+    }
+}
+
+/// Some of the tetrahedra, side by side, and where in the result each goes.
+struct Rows<'a> {
+    /// The place of the first.
+    start: u32,
+    of: &'a mut [u32],
+    tets: &'a mut [[VertexId; 4]],
+    twins: &'a mut [[FacetId; 4]],
+}
+
+impl<'a> Rows<'a> {
+    fn new(
+        of: &'a mut [u32],
+        tets: &'a mut [[VertexId; 4]],
+        twins: &'a mut [[FacetId; 4]],
+    ) -> Self {
+        Self {
+            start: 0,
+            of,
+            tets,
+            twins,
+        }
+    }
+
+    /// Moves the tetrahedra, with their places, to these places.
+    ///
+    /// Slots and places run about alike, but swapping along the cycles of the permutation would jump through all of
+    /// memory all the same. So each goes into the right block first, to where the blocks' next free places are,
+    /// which are few enough to stay in the cache; then to its place in the block (McIlroy et al. 1993).
+    ///
+    /// Since they run about alike, few need to go from one thread's share to another's.
+    fn arrange(mut self) {
+        const BLOCK: u32 = 15;
+        const SHARE: u32 = 20;
+        if rayon::current_num_threads() == 1 {
+            self.into_blocks(BLOCK);
+            for mut block in self.chunks(BLOCK) {
+                block.into_places();
+            }
+            return;
+        }
+        self.into_blocks(SHARE);
+        self.chunks(SHARE).into_par_iter().for_each(|mut rows| {
+            rows.into_blocks(BLOCK);
+            for mut block in rows.chunks(BLOCK) {
+                block.into_places();
+            }
+        });
+    }
+
+    fn chunks(&mut self, size: u32) -> Vec<Rows<'_>> {
+        let size = 1 << size;
+        let starts = (self.start..).step_by(size);
+        let of = self.of.chunks_mut(size);
+        let tets = self.tets.chunks_mut(size);
+        let twins = self.twins.chunks_mut(size);
+        let rows = starts.zip(of).zip(tets.zip(twins));
+        rows.map(|((start, of), (tets, twins))| Rows {
+            start,
+            of,
+            tets,
+            twins,
+        })
+        .collect()
+    }
+
+    #[inline(always)]
+    fn swap(&mut self, one: usize, other: usize) {
+        self.of.swap(one, other);
+        self.tets.swap(one, other);
+        self.twins.swap(one, other);
+    }
+
+    /// Each into its block of so many places.
+    fn into_blocks(&mut self, shift: u32) {
+        let size = 1 << shift;
+        let count = self.of.len();
+        if count <= size {
+            return;
+        }
+        let start = self.start;
+        let home = |place: u32| ((place - start) >> shift) as usize;
+        let mut next: Vec<usize> = (0..count).step_by(size).collect();
+        for block in 0..next.len() {
+            let end = ((block + 1) * size).min(count);
+            let mut slot = next[block];
+            while slot < end {
+                let to = home(self.of[slot]);
+                if to == block {
+                    slot += 1;
+                    continue;
+                }
+                // Those before `next` are home; so may be the next ones.
+                let mut free = next[to];
+                while home(self.of[free]) == to {
+                    free += 1;
+                }
+                next[to] = free + 1;
+                self.swap(slot, free);
+            }
+        }
+    }
+
+    fn into_places(&mut self) {
+        for slot in 0..self.of.len() {
+            loop {
+                let place = (self.of[slot] - self.start) as usize;
+                if place == slot {
+                    break;
+                }
+                self.swap(slot, place);
             }
         }
     }
