@@ -78,8 +78,7 @@ pub(crate) fn lift<R: Ring>(p: &[R; 3]) -> R {
     (p[0].square().add(&p[1].square())).add(&p[2].square())
 }
 
-/// [`insphere`] of vectors whose lifts are known. The six minors in x and y are shared by the four
-/// determinants that weight the lifts.
+/// [`insphere`] of vectors whose lifts are known.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "four vectors and their lifts")]
 pub(crate) fn insphere_lifted<R: Ring>(
@@ -92,6 +91,21 @@ pub(crate) fn insphere_lifted<R: Ring>(
     lift_c: &R,
     lift_d: &R,
 ) -> R {
+    weighted(
+        &insphere_coefficients(a, b, c, d),
+        [lift_a, lift_b, lift_c, lift_d],
+    )
+}
+
+/// The determinants by which [`insphere_lifted`] weights the lifts of a, b, c, d; those of b and d it takes away. The six
+/// minors in x and y are shared by the four.
+#[inline(always)]
+pub(crate) fn insphere_coefficients<R: Ring>(
+    a: &[R; 3],
+    b: &[R; 3],
+    c: &[R; 3],
+    d: &[R; 3],
+) -> [R; 4] {
     let ab = minor(a, b);
     let bc = minor(b, c);
     let cd = minor(c, d);
@@ -102,7 +116,13 @@ pub(crate) fn insphere_lifted<R: Ring>(
     let bcd = (b[2].mul(&cd).sub(&c[2].mul(&bd))).add(&d[2].mul(&bc));
     let cda = (c[2].mul(&da).add(&d[2].mul(&ac))).add(&a[2].mul(&cd));
     let dab = (d[2].mul(&ab).add(&a[2].mul(&bd))).add(&b[2].mul(&da));
-    (lift_c.mul(&dab).sub(&lift_d.mul(&abc))).add(&(lift_a.mul(&bcd).sub(&lift_b.mul(&cda))))
+    [bcd, cda, dab, abc]
+}
+
+/// The lifts of a, b, c, d, weighted by their coefficients.
+#[inline(always)]
+pub(crate) fn weighted<R: Ring>([bcd, cda, dab, abc]: &[R; 4], [a, b, c, d]: [&R; 4]) -> R {
+    (c.mul(dab).sub(&d.mul(abc))).add(&(a.mul(bcd).sub(&b.mul(cda))))
 }
 
 /// Positive when the lift of 0 with weight zero lies below the hyperplane through the lifts of the positively

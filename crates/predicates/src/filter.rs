@@ -480,7 +480,8 @@ impl StaticFilter {
     }
 
     /// Which of the four neighbours of the positive tetrahedron `corners` have `p` inside their spheres, as
-    /// far as the filters can say: four tests at once. Neighbour i shares all corners but corner i, in whose
+    /// far as the filters can say: four tests at once. Ties on a lattice (see [`with_unit`](Self::with_unit)) go as
+    /// [`lifted::insphere`] has them; `p` must be none of the vertices, and the neighbours positive. Neighbour i shares all corners but corner i, in whose
     /// place it has `opposite[i]`; `asked` has bit i where its verdict is wanted.
     #[inline(always)]
     pub fn insphere_across<R: Registers>(

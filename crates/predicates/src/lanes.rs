@@ -13,6 +13,8 @@ use glam::DVec3;
 pub trait Registers: Copy {
     /// Four doubles.
     type Four: Copy;
+    /// Yes or no, one a lane.
+    type Mask: Copy;
     /// One number a lane.
     fn set(self, lanes: [f64; 4]) -> Self::Four;
     /// Sums, lane by lane.
@@ -29,6 +31,16 @@ pub trait Registers: Copy {
     fn max(self, a: Self::Four, b: Self::Four) -> Self::Four;
     /// Bit i says whether lane i of `a` is greater than that of `b`.
     fn greater(self, a: Self::Four, b: Self::Four) -> u8;
+    /// Whether `a` is greater than `b`, lane by lane.
+    fn is_greater(self, a: Self::Four, b: Self::Four) -> Self::Mask;
+    /// Whether `a` equals `b`, lane by lane.
+    fn is_equal(self, a: Self::Four, b: Self::Four) -> Self::Mask;
+    /// Whether both are, lane by lane.
+    fn both(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Whether one of them is, lane by lane.
+    fn either(self, a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Where `mask` says yes the lane of `yes`, elsewhere that of `no`.
+    fn select(self, mask: Self::Mask, yes: Self::Four, no: Self::Four) -> Self::Four;
 }
 
 /// Work that is compiled once for each kind of registers. All that [`run`](Self::run) calls must be inlined
@@ -83,6 +95,7 @@ fn zip([a, b, c, d]: [f64; 4], [e, f, g, h]: [f64; 4], of: impl Fn(f64, f64) -> 
 
 impl Registers for Plain {
     type Four = [f64; 4];
+    type Mask = [bool; 4];
 
     #[inline(always)]
     fn set(self, lanes: [f64; 4]) -> [f64; 4] {
@@ -117,6 +130,26 @@ impl Registers for Plain {
         let bit = |i: usize| u8::from(a[i] > b[i]) << i;
         bit(0) | bit(1) | bit(2) | bit(3)
     }
+    #[inline(always)]
+    fn is_greater(self, a: [f64; 4], b: [f64; 4]) -> [bool; 4] {
+        std::array::from_fn(|i| a[i] > b[i])
+    }
+    #[inline(always)]
+    fn is_equal(self, a: [f64; 4], b: [f64; 4]) -> [bool; 4] {
+        std::array::from_fn(|i| a[i] == b[i])
+    }
+    #[inline(always)]
+    fn both(self, a: [bool; 4], b: [bool; 4]) -> [bool; 4] {
+        std::array::from_fn(|i| a[i] & b[i])
+    }
+    #[inline(always)]
+    fn either(self, a: [bool; 4], b: [bool; 4]) -> [bool; 4] {
+        std::array::from_fn(|i| a[i] | b[i])
+    }
+    #[inline(always)]
+    fn select(self, mask: [bool; 4], yes: [f64; 4], no: [f64; 4]) -> [f64; 4] {
+        std::array::from_fn(|i| if mask[i] { yes[i] } else { no[i] })
+    }
 }
 
 /// The registers of a machine with AVX2, which the token proves this one to be.
@@ -127,6 +160,7 @@ struct Avx2(pulp::x86::V3);
 #[cfg(target_arch = "x86_64")]
 impl Registers for Avx2 {
     type Four = std::arch::x86_64::__m256d;
+    type Mask = std::arch::x86_64::__m256d;
 
     #[inline(always)]
     fn set(self, [a, b, c, d]: [f64; 4]) -> Self::Four {
@@ -162,6 +196,30 @@ impl Registers for Avx2 {
         let avx = self.0.avx;
         let greater = avx._mm256_cmp_pd::<{ std::arch::x86_64::_CMP_GT_OQ }>(a, b);
         avx._mm256_movemask_pd(greater) as u8
+    }
+    #[inline(always)]
+    fn is_greater(self, a: Self::Four, b: Self::Four) -> Self::Mask {
+        self.0
+            .avx
+            ._mm256_cmp_pd::<{ std::arch::x86_64::_CMP_GT_OQ }>(a, b)
+    }
+    #[inline(always)]
+    fn is_equal(self, a: Self::Four, b: Self::Four) -> Self::Mask {
+        self.0
+            .avx
+            ._mm256_cmp_pd::<{ std::arch::x86_64::_CMP_EQ_OQ }>(a, b)
+    }
+    #[inline(always)]
+    fn both(self, a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        self.0.avx._mm256_and_pd(a, b)
+    }
+    #[inline(always)]
+    fn either(self, a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        self.0.avx._mm256_or_pd(a, b)
+    }
+    #[inline(always)]
+    fn select(self, mask: Self::Mask, yes: Self::Four, no: Self::Four) -> Self::Four {
+        self.0.avx._mm256_blendv_pd(no, yes, mask)
     }
 }
 
@@ -228,13 +286,11 @@ pub struct FourVerdicts {
     pub inside: u8,
     /// Those that surely have it outside.
     pub outside: u8,
-    /// Those that surely have it on them.
-    pub on: u8,
 }
 
 /// For each corner of the positive tetrahedron `corners` that `asked` names: whether `p` is inside the sphere of
 /// the neighbour opposite that corner, whose fourth vertex is `opposite`. The static filter, and where that is
-/// not enough, the semi-static one.
+/// not enough, the semi-static one; on a lattice ties too, by the perturbation of [`lifted`](crate::lifted).
 ///
 /// The neighbour opposite corner i has the other three corners, turned around, and opposite vertex i:
 ///
@@ -258,73 +314,113 @@ pub(crate) fn insphere_across<R: Registers>(
     const THIRD: i32 = lanes([2, 3, 1, 2]);
     let [x, y, z] = differences(registers, corners, p);
     let lift = determinant::lift(&[x, y, z]);
+    let first = [
+        x.permuted::<FIRST>(),
+        y.permuted::<FIRST>(),
+        z.permuted::<FIRST>(),
+    ];
+    let second = [
+        x.permuted::<SECOND>(),
+        y.permuted::<SECOND>(),
+        z.permuted::<SECOND>(),
+    ];
+    let third = [
+        x.permuted::<THIRD>(),
+        y.permuted::<THIRD>(),
+        z.permuted::<THIRD>(),
+    ];
     let opposite = differences(registers, opposite, p);
-    let value = determinant::insphere_lifted(
-        &[
-            x.permuted::<FIRST>(),
-            y.permuted::<FIRST>(),
-            z.permuted::<FIRST>(),
-        ],
-        &[
-            x.permuted::<SECOND>(),
-            y.permuted::<SECOND>(),
-            z.permuted::<SECOND>(),
-        ],
-        &[
-            x.permuted::<THIRD>(),
-            y.permuted::<THIRD>(),
-            z.permuted::<THIRD>(),
-        ],
-        &opposite,
+    let coefficients = determinant::insphere_coefficients(&first, &second, &third, &opposite);
+    let lifts = [
         &lift.permuted::<FIRST>(),
         &lift.permuted::<SECOND>(),
         &lift.permuted::<THIRD>(),
         &determinant::lift(&opposite),
-    )
-    .four;
+    ];
+    let value = determinant::weighted(&coefficients, lifts).four;
     let splat = |x: f64| registers.set([x; 4]);
     let negated = registers.sub(splat(0.0), value);
     let bound = splat(bounds.of_box);
     let mut verdicts = FourVerdicts {
         inside: registers.greater(value, bound),
         outside: registers.greater(negated, bound),
-        on: 0,
     };
     let undecided = asked & !(verdicts.inside | verdicts.outside);
     if undecided == 0 {
         return verdicts;
     }
-    if bounds.of_box < bounds.half_unit {
-        verdicts.on = undecided;
-        return verdicts;
+    let cospherical = if bounds.of_box < bounds.half_unit {
+        undecided
+    } else {
+        let spread = |i: usize| {
+            let abs = |lanes: &Lanes<R>| registers.abs(lanes.four);
+            registers.max(
+                registers.max(abs(&first[i]), abs(&second[i])),
+                registers.max(abs(&third[i]), abs(&opposite[i])),
+            )
+        };
+        let (x, y, z) = (spread(0), spread(1), spread(2));
+        let in_range = |spread: R::Four| {
+            registers.greater(spread, splat(bounds.least))
+                & registers.greater(splat(bounds.most), spread)
+        };
+        let usable = undecided & in_range(x) & in_range(y) & in_range(z);
+        let square = |x: R::Four| registers.mul(x, x);
+        let squares = registers.add(registers.add(square(x), square(y)), square(z));
+        let volume = registers.mul(registers.mul(x, y), z);
+        let bound = registers.mul(registers.mul(volume, squares), splat(bounds.factor));
+        verdicts.inside |= usable & registers.greater(value, bound);
+        verdicts.outside |= usable & registers.greater(negated, bound);
+        let undecided = usable & !(verdicts.inside | verdicts.outside);
+        undecided & registers.greater(splat(bounds.half_unit), bound)
+    };
+    if cospherical != 0 {
+        let points = [first, second, third, opposite];
+        let inside = insphere_of_cospherical(registers, points, coefficients);
+        verdicts.inside |= cospherical & inside;
+        verdicts.outside |= cospherical & !inside;
     }
-    let spread = |corners: Lanes<R>, opposite: Lanes<R>| {
-        let corners = corners.with(registers.abs(corners.four));
-        let first = corners.permuted::<FIRST>().four;
-        let second = corners.permuted::<SECOND>().four;
-        let third = corners.permuted::<THIRD>().four;
-        let opposite = registers.abs(opposite.four);
-        registers.max(registers.max(first, second), registers.max(third, opposite))
-    };
-    let (x, y, z) = (
-        spread(x, opposite[0]),
-        spread(y, opposite[1]),
-        spread(z, opposite[2]),
-    );
-    let in_range = |spread: R::Four| {
-        registers.greater(spread, splat(bounds.least))
-            & registers.greater(splat(bounds.most), spread)
-    };
-    let usable = undecided & in_range(x) & in_range(y) & in_range(z);
-    let square = |x: R::Four| registers.mul(x, x);
-    let squares = registers.add(registers.add(square(x), square(y)), square(z));
-    let volume = registers.mul(registers.mul(x, y), z);
-    let bound = registers.mul(registers.mul(volume, squares), splat(bounds.factor));
-    verdicts.inside |= usable & registers.greater(value, bound);
-    verdicts.outside |= usable & registers.greater(negated, bound);
-    let undecided = usable & !(verdicts.inside | verdicts.outside);
-    verdicts.on = undecided & registers.greater(splat(bounds.half_unit), bound);
     verdicts
+}
+
+/// Bit i says whether the perturbation (see [`lifted`](crate::lifted)) has the origin inside the sphere of the positive
+/// tetrahedron in lane i, on which it lies. The origin is none of the corners.
+///
+/// The factors of the perturbation are the coefficients of the lifts, that of the origin being negative. They are exact: they
+/// are multiples of u³ for a lattice of unit u, of three spreads X, Y, Z that are at least u. The error of the in-sphere
+/// determinant being less than u⁵ / 2, `factor` X Y Z (X² + Y² + Z²) is, so X Y Z < u³ / (6 `factor`). With
+/// `factor` > 2⁻⁵³ all terms and sums of the coefficients, six products of three differences, are below 2⁵³ u³.
+#[inline(always)]
+fn insphere_of_cospherical<R: Registers>(
+    registers: R,
+    points: [[Lanes<R>; 3]; 4],
+    coefficients: [Lanes<R>; 4],
+) -> u8 {
+    let zero = registers.set([0.0; 4]);
+    let one = registers.set([1.0; 4]);
+    let is_not_zero =
+        |x: R::Four| registers.either(registers.is_greater(x, zero), registers.is_greater(zero, x));
+    // The largest one so far of those with a factor, and its factor.
+    let mut largest = [zero; 3];
+    let mut sign = registers.sub(zero, one);
+    for (i, (point, factor)) in points.into_iter().zip(coefficients).enumerate() {
+        // Of b and d the coefficients are taken away.
+        let factor = match i % 2 {
+            0 => factor.four,
+            _ => registers.sub(zero, factor.four),
+        };
+        let point = point.map(|lanes| lanes.four);
+        let is_greater = |k: usize| registers.is_greater(point[k], largest[k]);
+        let is_equal = |k: usize| registers.is_equal(point[k], largest[k]);
+        let by_two = registers.either(is_greater(1), registers.both(is_equal(1), is_greater(2)));
+        let is_larger = registers.either(is_greater(0), registers.both(is_equal(0), by_two));
+        let decides = registers.both(is_larger, is_not_zero(factor));
+        for k in 0..3 {
+            largest[k] = registers.select(decides, point[k], largest[k]);
+        }
+        sign = registers.select(decides, factor, sign);
+    }
+    registers.greater(sign, zero)
 }
 
 /// Bounds on the error of the in-sphere determinant.

@@ -21,9 +21,6 @@ pub(super) trait Query: Copy {
     /// three of the corners the fourth one must have no say.
     fn is_inside(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool;
 
-    /// [`is_inside`](Self::is_inside) where the point is known to lie on the sphere.
-    fn is_inside_cospherical(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool;
-
     /// Of the four neighbours of a finite tetrahedron, which have the fourth vertices `opposite`, those that are
     /// asked for: what filters can say at once.
     fn is_inside_across<R: Registers>(
@@ -47,13 +44,6 @@ impl Query for DVec3 {
         let [a, b] = [kernel.point(a), kernel.point(b)];
         let [c, d] = [kernel.point(c), kernel.point(d)];
         kernel.filter.insphere_perturbed(a, b, c, d, self) == Sign::Positive
-    }
-
-    #[inline]
-    fn is_inside_cospherical(self, kernel: &Kernel, [a, b, c, d]: [VertexId; 4]) -> bool {
-        let [a, b] = [kernel.point(a), kernel.point(b)];
-        let [c, d] = [kernel.point(c), kernel.point(d)];
-        kernel.filter.insphere_of_cospherical(a, b, c, d, self) == Sign::Positive
     }
 
     #[inline(always)]
@@ -102,15 +92,8 @@ impl Kernel {
             let finite = asked & !infinite;
             let verdicts = query.is_inside_across(registers, self, corners, opposite, finite);
             inside = verdicts.inside & finite;
-            let decided = verdicts.inside | verdicts.outside | verdicts.on;
+            let decided = verdicts.inside | verdicts.outside;
             undecided = asked & (infinite | !decided);
-            let mut on = verdicts.on & finite;
-            while on != 0 {
-                let i = on.trailing_zeros();
-                on &= on - 1;
-                let corners = self.cells.corners(twins[i as usize].tet());
-                inside |= u8::from(query.is_inside_cospherical(self, corners)) << i;
-            }
         }
         while undecided != 0 {
             let i = undecided.trailing_zeros();

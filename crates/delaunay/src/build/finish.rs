@@ -124,17 +124,15 @@ fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
 
     let mut infinite: Vec<u32> = lists.into_iter().flat_map(|lists| lists.infinite).collect();
     infinite.par_sort_unstable_by_key(|&t| tets[t as usize]);
-    let mut used = finite;
     let unused = (0..tets.len() as u32).filter(|&t| tets[t as usize][0] == UNUSED);
-    let slots_used = finite as usize + infinite.len();
-    for t in infinite.into_iter().chain(unused) {
-        of[t as usize].store(used, Relaxed);
-        used += 1;
+    let used = finite as usize + infinite.len();
+    for (t, place) in infinite.into_iter().chain(unused).zip(finite..) {
+        of[t as usize].store(place, Relaxed);
     }
     Places {
         of: of.into_iter().map(AtomicU32::into_inner).collect(),
         finite: finite as usize,
-        used: slots_used,
+        used,
     }
 }
 
@@ -234,17 +232,17 @@ impl<'a> Rows<'a> {
         const BLOCK: u32 = 15;
         const SHARE: u32 = 20;
         if rayon::current_num_threads() == 1 {
-            self.into_blocks(BLOCK);
+            self.move_into_blocks(BLOCK);
             for mut block in self.chunks(BLOCK) {
-                block.into_places();
+                block.move_into_places();
             }
             return;
         }
-        self.into_blocks(SHARE);
+        self.move_into_blocks(SHARE);
         self.chunks(SHARE).into_par_iter().for_each(|mut rows| {
-            rows.into_blocks(BLOCK);
+            rows.move_into_blocks(BLOCK);
             for mut block in rows.chunks(BLOCK) {
-                block.into_places();
+                block.move_into_places();
             }
         });
     }
@@ -273,7 +271,7 @@ impl<'a> Rows<'a> {
     }
 
     /// Each into its block of so many places.
-    fn into_blocks(&mut self, shift: u32) {
+    fn move_into_blocks(&mut self, shift: u32) {
         let size = 1 << shift;
         let count = self.of.len();
         if count <= size {
@@ -302,7 +300,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    fn into_places(&mut self) {
+    fn move_into_places(&mut self) {
         for slot in 0..self.of.len() {
             loop {
                 let place = (self.of[slot] - self.start) as usize;

@@ -45,10 +45,6 @@ impl Query for Weighted {
         sign == Sign::Positive
     }
 
-    fn is_inside_cospherical(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool {
-        self.is_inside(kernel, corners)
-    }
-
     /// One by one is fast enough.
     #[inline(always)]
     fn is_inside_across<R: Registers>(

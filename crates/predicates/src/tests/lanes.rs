@@ -85,9 +85,18 @@ proptest! {
             let [x, y, z] = neighbor.map(|corner| corners[corner]);
             let truth = insphere(x, y, z, opposite[i], e);
             let bit = |set: u8| set >> i & 1 == 1;
+            if truth == Sign::Zero {
+                let vertices = [x, y, z, opposite[i]];
+                if orient3d(x, y, z, opposite[i]) != Sign::Positive || vertices.contains(&e) {
+                    continue;
+                }
+            }
+            let truth = match truth {
+                Sign::Zero => lifted::insphere(x, y, z, opposite[i], e),
+                sign => sign,
+            };
             prop_assert!(!bit(verdicts.inside) || truth == Sign::Positive);
             prop_assert!(!bit(verdicts.outside) || truth == Sign::Negative);
-            prop_assert!(!bit(verdicts.on) || truth == Sign::Zero);
         }
     }
 
@@ -106,19 +115,39 @@ proptest! {
     }
 }
 
-#[test]
-fn on_a_lattice_ties_are_recognised_in_all_lanes() {
-    // The corners of a cube about the centre of the other: each neighbour has all five on one sphere.
-    let corner = |i: u8| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
-    let corners = [0, 1, 2, 4].map(corner);
-    let across = Across {
-        filter: StaticFilter::from_bounds(DVec3::ZERO, DVec3::splat(1000.0)).with_unit(1.0),
-        corners,
-        opposite: [7, 6, 5, 3].map(corner),
-        p: corner(7),
-        asked: 0b1110,
-    };
-    assert_eq!(vectorized(across).on, 0b1110);
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn on_a_lattice_ties_are_decided_in_all_lanes(
+        corners in proptest::array::uniform4(0..8_u8),
+        opposite in proptest::array::uniform4(0..8_u8),
+        p in 0..8_u8,
+        axes in Just([0, 1, 2]).prop_shuffle(),
+        wide in any::<bool>(),
+    ) {
+        // Corners of a cube, all on one sphere; in a wide box only the second filter knows it.
+        let corner = |i: u8| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2));
+        let corner = |i: u8| DVec3::from_array(axes.map(|axis| corner(i)[axis]));
+        let (corners, opposite, p) = (corners.map(corner), opposite.map(corner), corner(p));
+        let size = if wide { 1000.0 } else { 1.0 };
+        let filter = StaticFilter::from_bounds(DVec3::ZERO, DVec3::splat(size)).with_unit(1.0);
+        let across = || Across { filter, corners, opposite, p, asked: 0b1111 };
+        let verdicts = vectorized(across());
+        prop_assert_eq!(verdicts, across().run(Plain));
+        for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
+            let [x, y, z] = neighbor.map(|corner| corners[corner]);
+            let is_vertex = [x, y, z, opposite[i]].contains(&p);
+            if orient3d(x, y, z, opposite[i]) == Sign::Positive && !is_vertex {
+                let sign = match (verdicts.inside >> i & 1, verdicts.outside >> i & 1) {
+                    (1, 0) => Sign::Positive,
+                    (0, 1) => Sign::Negative,
+                    _ => Sign::Zero,
+                };
+                prop_assert_eq!(sign, lifted::insphere(x, y, z, opposite[i], p));
+            }
+        }
+    }
 }
 
 #[test]
