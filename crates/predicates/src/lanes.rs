@@ -338,9 +338,8 @@ pub(crate) fn insphere_across<R: Registers>(
         &determinant::lift(&opposite),
     ];
     let value = determinant::weighted(&coefficients, lifts).four;
-    let splat = |x: f64| registers.set([x; 4]);
-    let negated = registers.sub(splat(0.0), value);
-    let bound = splat(bounds.of_box);
+    let negated = registers.sub(splat(registers, 0.0), value);
+    let bound = splat(registers, bounds.of_box);
     let mut verdicts = FourVerdicts {
         inside: registers.greater(value, bound),
         outside: registers.greater(negated, bound),
@@ -349,38 +348,73 @@ pub(crate) fn insphere_across<R: Registers>(
     if undecided == 0 {
         return verdicts;
     }
-    let cospherical = if bounds.of_box < bounds.half_unit {
-        undecided
-    } else {
-        let spread = |i: usize| {
-            let abs = |lanes: &Lanes<R>| registers.abs(lanes.four);
-            registers.max(
-                registers.max(abs(&first[i]), abs(&second[i])),
-                registers.max(abs(&third[i]), abs(&opposite[i])),
-            )
-        };
-        let (x, y, z) = (spread(0), spread(1), spread(2));
-        let in_range = |spread: R::Four| {
-            registers.greater(spread, splat(bounds.least))
-                & registers.greater(splat(bounds.most), spread)
-        };
-        let usable = undecided & in_range(x) & in_range(y) & in_range(z);
-        let square = |x: R::Four| registers.mul(x, x);
-        let squares = registers.add(registers.add(square(x), square(y)), square(z));
-        let volume = registers.mul(registers.mul(x, y), z);
-        let bound = registers.mul(registers.mul(volume, squares), splat(bounds.factor));
+    let points = [first, second, third, opposite];
+    let mut cospherical = undecided;
+    if bounds.of_box >= bounds.half_unit {
+        let (bound, is_usable) = semi_static_bound(registers, points, bounds);
+        let usable = undecided & is_usable;
         verdicts.inside |= usable & registers.greater(value, bound);
         verdicts.outside |= usable & registers.greater(negated, bound);
         let undecided = usable & !(verdicts.inside | verdicts.outside);
-        undecided & registers.greater(splat(bounds.half_unit), bound)
-    };
+        cospherical = undecided & registers.greater(splat(registers, bounds.half_unit), bound);
+    }
     if cospherical != 0 {
-        let points = [first, second, third, opposite];
         let inside = insphere_of_cospherical(registers, points, coefficients);
         verdicts.inside |= cospherical & inside;
         verdicts.outside |= cospherical & !inside;
     }
     verdicts
+}
+
+#[inline(always)]
+fn splat<R: Registers>(registers: R, x: f64) -> R::Four {
+    registers.set([x; 4])
+}
+
+/// The bound on the error of each lane's determinant from the spreads of its points, and which lanes it holds for.
+#[inline(always)]
+fn semi_static_bound<R: Registers>(
+    registers: R,
+    points: [[Lanes<R>; 3]; 4],
+    bounds: InSphereBounds,
+) -> (R::Four, u8) {
+    let x = spread(registers, points, 0);
+    let y = spread(registers, points, 1);
+    let z = spread(registers, points, 2);
+    let squares = registers.add(
+        registers.add(registers.mul(x, x), registers.mul(y, y)),
+        registers.mul(z, z),
+    );
+    let volume = registers.mul(registers.mul(x, y), z);
+    let bound = registers.mul(
+        registers.mul(volume, squares),
+        splat(registers, bounds.factor),
+    );
+    let (least, most) = (
+        splat(registers, bounds.least),
+        splat(registers, bounds.most),
+    );
+    let is_usable = registers.greater(x, least)
+        & registers.greater(y, least)
+        & registers.greater(z, least)
+        & registers.greater(most, x)
+        & registers.greater(most, y)
+        & registers.greater(most, z);
+    (bound, is_usable)
+}
+
+/// The largest absolute value of a coordinate.
+#[inline(always)]
+fn spread<R: Registers>(
+    registers: R,
+    [a, b, c, d]: [[Lanes<R>; 3]; 4],
+    coordinate: usize,
+) -> R::Four {
+    let a = registers.abs(a[coordinate].four);
+    let b = registers.abs(b[coordinate].four);
+    let c = registers.abs(c[coordinate].four);
+    let d = registers.abs(d[coordinate].four);
+    registers.max(registers.max(a, b), registers.max(c, d))
 }
 
 /// Bit i says whether the perturbation (see [`lifted`](crate::lifted)) has the origin inside the sphere of the positive
@@ -393,34 +427,59 @@ pub(crate) fn insphere_across<R: Registers>(
 #[inline(always)]
 fn insphere_of_cospherical<R: Registers>(
     registers: R,
-    points: [[Lanes<R>; 3]; 4],
-    coefficients: [Lanes<R>; 4],
+    [a, b, c, d]: [[Lanes<R>; 3]; 4],
+    [bcd, cda, dab, abc]: [Lanes<R>; 4],
 ) -> u8 {
-    let zero = registers.set([0.0; 4]);
-    let one = registers.set([1.0; 4]);
-    let is_not_zero =
-        |x: R::Four| registers.either(registers.is_greater(x, zero), registers.is_greater(zero, x));
-    // The largest one so far of those with a factor, and its factor.
-    let mut largest = [zero; 3];
-    let mut sign = registers.sub(zero, one);
-    for (i, (point, factor)) in points.into_iter().zip(coefficients).enumerate() {
-        // Of b and d the coefficients are taken away.
-        let factor = match i % 2 {
-            0 => factor.four,
-            _ => registers.sub(zero, factor.four),
-        };
-        let point = point.map(|lanes| lanes.four);
-        let is_greater = |k: usize| registers.is_greater(point[k], largest[k]);
-        let is_equal = |k: usize| registers.is_equal(point[k], largest[k]);
-        let by_two = registers.either(is_greater(1), registers.both(is_equal(1), is_greater(2)));
-        let is_larger = registers.either(is_greater(0), registers.both(is_equal(0), by_two));
-        let decides = registers.both(is_larger, is_not_zero(factor));
-        for k in 0..3 {
-            largest[k] = registers.select(decides, point[k], largest[k]);
+    let zero = splat(registers, 0.0);
+    let largest = Largest {
+        registers,
+        zero,
+        point: [zero; 3],
+        factor: splat(registers, -1.0),
+    };
+    let largest = largest.or(a, bcd.four);
+    let largest = largest.or(b, registers.sub(zero, cda.four));
+    let largest = largest.or(c, dab.four);
+    let largest = largest.or(d, registers.sub(zero, abc.four));
+    registers.greater(largest.factor, zero)
+}
+
+/// In each lane, the lexicographically largest point so far whose factor is not zero, and its factor.
+struct Largest<R: Registers> {
+    registers: R,
+    zero: R::Four,
+    point: [R::Four; 3],
+    factor: R::Four,
+}
+
+impl<R: Registers> Largest<R> {
+    #[inline(always)]
+    fn or(self, [x, y, z]: [Lanes<R>; 3], factor: R::Four) -> Self {
+        let Self {
+            registers,
+            zero,
+            point: [u, v, w],
+            factor: other,
+        } = self;
+        let (x, y, z) = (x.four, y.four, z.four);
+        let by_z = registers.both(registers.is_equal(y, v), registers.is_greater(z, w));
+        let by_y = registers.either(registers.is_greater(y, v), by_z);
+        let by_y = registers.both(registers.is_equal(x, u), by_y);
+        let is_larger = registers.either(registers.is_greater(x, u), by_y);
+        let is_positive = registers.is_greater(factor, zero);
+        let is_negative = registers.is_greater(zero, factor);
+        let decides = registers.both(is_larger, registers.either(is_positive, is_negative));
+        Self {
+            registers,
+            zero,
+            point: [
+                registers.select(decides, x, u),
+                registers.select(decides, y, v),
+                registers.select(decides, z, w),
+            ],
+            factor: registers.select(decides, factor, other),
         }
-        sign = registers.select(decides, factor, sign);
     }
-    registers.greater(sign, zero)
 }
 
 /// Bounds on the error of the in-sphere determinant.

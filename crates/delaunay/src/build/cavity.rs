@@ -1,7 +1,7 @@
 //! The conflict region: dig it out, and fill it with tetrahedra around the new vertex.
 
 use super::{
-    cells::{AT_REST, KEPT, four},
+    cells::{AT_REST, Cells, IN_CONFLICT, KEPT, four},
     conflict::Query,
     kernel::Kernel,
     worker::Worker,
@@ -87,6 +87,32 @@ impl Cavity {
         self.conflict_count += 1;
     }
 
+    /// The neighbour opposite corner `I` of a tetrahedron in conflict: to the conflict region, or the facet there to the
+    /// boundary, as bit `I` of `inside` and `outside` say. (A closure in its place would not surely be inlined.)
+    #[inline(always)]
+    fn sort_in<const I: usize>(
+        &mut self,
+        cells: &Cells,
+        corners: [VertexId; 4],
+        twins: [FacetId; 4],
+        marks: [u8; 4],
+        inside: u8,
+        outside: u8,
+    ) {
+        let [a, b, c] = FACET_CORNERS[I];
+        self.boundary[self.boundary_count] = BoundaryFacet {
+            corners: [corners[b], corners[a], corners[c]],
+            outer: twins[I],
+        };
+        self.boundary_count += usize::from(outside >> I & 1);
+        let neighbor = twins[I].tet();
+        let is_inside = inside >> I & 1 == 1;
+        cells.set_mark(neighbor, if is_inside { IN_CONFLICT } else { marks[I] });
+        cells.prefetch_twins(neighbor);
+        self.conflict[self.conflict_count] = neighbor;
+        self.conflict_count += usize::from(is_inside);
+    }
+
     /// How many tetrahedra the filling has more than the conflict region.
     #[inline(always)]
     pub(super) fn growth(&self) -> usize {
@@ -116,7 +142,7 @@ impl Worker {
     /// Finds all tetrahedra in conflict with a point, breadth first from `start`, and the facets around them;
     /// marks them. The conflict region is connected and star-shaped around it: the signs are exact.
     ///
-    /// False when another worker is in the way; then what is marked must be released.
+    /// False when another worker holds one of the tetrahedra to be looked at; then what is marked must be released.
     ///
     /// Whether a neighbour is in conflict is as good as random, so the inner loop has no branch on it: it
     /// writes what may be needed, and counts what is.
@@ -129,7 +155,7 @@ impl Worker {
         query: impl Query,
     ) -> bool {
         let cells = &kernel.cells;
-        let mine = self.mark;
+        let held = &mut self.held;
         let cavity = &mut self.cavity;
         cavity.clear();
         cavity.push_conflict(start);
@@ -143,47 +169,28 @@ impl Worker {
             }
             let corners = cells.corners(tet);
             let twins = cells.twins(tet);
+            if SHARED {
+                let is_held = held.hold(&kernel.blocks, twins[0].tet())
+                    && held.hold(&kernel.blocks, twins[1].tet())
+                    && held.hold(&kernel.blocks, twins[2].tet())
+                    && held.hold(&kernel.blocks, twins[3].tet());
+                if !is_held {
+                    return false;
+                }
+            }
             let marks = four(|i| cells.mark(twins[i].tet()));
-            let [a, b, c, d] = four(|i| u8::from(marks[i] != mine) << i);
+            let [a, b, c, d] = four(|i| u8::from(marks[i] != IN_CONFLICT) << i);
             let untested = a | b | c | d;
             if untested == 0 {
                 continue;
             }
-            if SHARED {
-                // Whoever replaces a neighbour renews our twin before the mark goes.
-                let [a, b, c, d] = four(|i| {
-                    marks[i] != mine
-                        && (marks[i] != AT_REST || cells.twin(FacetId::of(tet, i)) != twins[i])
-                });
-                if a | b | c | d {
-                    return false;
-                }
-            }
             let inside = kernel.are_in_conflict(registers, corners, twins, untested, query);
             let outside = untested & !inside;
             cavity.make_room();
-            let is_claimed = four(|i| {
-                let [a, b, c] = FACET_CORNERS[i];
-                cavity.boundary[cavity.boundary_count] = BoundaryFacet {
-                    corners: [corners[b], corners[a], corners[c]],
-                    outer: twins[i],
-                };
-                cavity.boundary_count += usize::from(outside >> i & 1);
-                let neighbor = twins[i].tet();
-                if !SHARED {
-                    let mark = if inside >> i & 1 == 1 { mine } else { marks[i] };
-                    cells.set_mark(neighbor, mark);
-                } else if inside >> i & 1 == 1 && !cells.claim(neighbor, mine) {
-                    return false;
-                }
-                cells.prefetch_twins(neighbor);
-                cavity.conflict[cavity.conflict_count] = neighbor;
-                cavity.conflict_count += usize::from(inside >> i & 1);
-                true
-            });
-            if SHARED && is_claimed != [true; 4] {
-                return false;
-            }
+            cavity.sort_in::<0>(cells, corners, twins, marks, inside, outside);
+            cavity.sort_in::<1>(cells, corners, twins, marks, inside, outside);
+            cavity.sort_in::<2>(cells, corners, twins, marks, inside, outside);
+            cavity.sort_in::<3>(cells, corners, twins, marks, inside, outside);
         }
         true
     }
@@ -209,16 +216,15 @@ impl Worker {
         }
         while cavity.conflict_count < cavity.boundary_count {
             let tet = self.kept.pop().expect("slots were reserved");
-            kernel.cells.set_mark(tet, self.mark);
+            kernel.cells.set_mark(tet, IN_CONFLICT);
             cavity.push_conflict(tet);
         }
         // The boundary is a sphere with F facets and F / 2 + 2 vertices.
         if cavity.boundary_count / 2 + 2 <= MOST_TABLED_VERTICES {
-            cavity.join_through_table(kernel, vertex, self.mark);
+            cavity.join_through_table(kernel, vertex);
         } else {
-            cavity.join_through_sorting(kernel, vertex, self.mark);
+            cavity.join_through_sorting(kernel, vertex);
         }
-        // Only now may others come.
         for &tet in cavity.conflict() {
             kernel.cells.set_mark(tet, AT_REST);
         }
@@ -237,7 +243,7 @@ impl Cavity {
     ///      b ——→ c      facet 3 (opposite c): a → b
     /// ```
     #[inline(always)]
-    fn join_through_table(&mut self, kernel: &Kernel, vertex: VertexId, mine: u8) {
+    fn join_through_table(&mut self, kernel: &Kernel, vertex: VertexId) {
         self.ranking.clear();
         let count = self.boundary_count;
         if self.ranks.len() < count {
@@ -271,7 +277,7 @@ impl Cavity {
                     edges[edge(a, c)],
                     edges[edge(b, a)],
                 ],
-                mine,
+                IN_CONFLICT,
             );
             kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
         }
@@ -279,14 +285,14 @@ impl Cavity {
 
     /// The same for cavities with many vertices: equal edges meet in a sorted list.
     #[cold]
-    fn join_through_sorting(&mut self, kernel: &Kernel, vertex: VertexId, mine: u8) {
+    fn join_through_sorting(&mut self, kernel: &Kernel, vertex: VertexId) {
         let boundary = &self.boundary[..self.boundary_count];
         let mut edges = Vec::with_capacity(3 * boundary.len());
         for (facet, &tet) in boundary.iter().zip(&self.conflict) {
             let [a, b, c] = least_last(facet.corners);
             kernel
                 .cells
-                .set(tet, [vertex, a, b, c], [facet.outer; 4], mine);
+                .set(tet, [vertex, a, b, c], [facet.outer; 4], IN_CONFLICT);
             kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
             for (from, to, corner) in [(b, c, 1), (c, a, 2), (a, b, 3)] {
                 edges.push((from.min(to), from.max(to), FacetId::of(tet, corner)));

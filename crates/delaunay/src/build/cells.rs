@@ -1,13 +1,13 @@
 //! The arrays of a growing tetrahedralisation, shared by all threads that insert into it.
 //!
 //! Every word is an atomic that is read and written without ordering, which costs what a plain word costs;
-//! the order between threads comes from the marks alone (see [`parallel`](super::parallel)).
+//! the order between threads comes from the [`blocks`](super::blocks) that they hold.
 
 use crate::{FacetId, TetId};
 use pellicle_geometry::VertexId;
 use prefetch_index::prefetch_index;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU32, Ordering::*};
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// The first corner's word holds the vertex in these bits and the mark in the others, so that a look at a
 /// tetrahedron fetches both.
@@ -17,8 +17,10 @@ const VERTEX_BITS: u32 = (1 << MARK_SHIFT) - 1;
 /// How many vertices there may be.
 pub(crate) const MOST_VERTICES: usize = 1 << MARK_SHIFT;
 
-/// The mark of a tetrahedron that no insertion has claimed.
+/// The mark of a tetrahedron that is in no conflict region.
 pub(super) const AT_REST: u8 = 0;
+/// The mark of a tetrahedron that is in the conflict region of a point being inserted.
+pub(super) const IN_CONFLICT: u8 = 1;
 /// The mark of a slot that holds no tetrahedron.
 pub(super) const VACANT: u8 = 15;
 /// The mark of a slot that holds no tetrahedron and that a worker keeps for a new one.
@@ -29,8 +31,7 @@ const LEAST_SHARED: usize = 1 << 14;
 
 #[derive(Default)]
 pub(super) struct Cells {
-    /// Four corners each, the first with the mark ([`AT_REST`], [`VACANT`], [`KEPT`], or the worker whose
-    /// conflict region the tetrahedron is in); positively oriented; an infinite one as if its vertex at infinity, corner 3, were
+    /// Four corners each, the first with the mark; positively oriented; an infinite one as if its vertex at infinity, corner 3, were
     /// any point beyond its hull facet.
     corners: Vec<[AtomicU32; 4]>,
     /// By tetrahedron and corner: the facet opposite the corner, seen from the other side.
@@ -175,29 +176,16 @@ impl Cells {
         self.twins[facet.tet().index()][facet.corner()].store(twin.0, Relaxed);
     }
 
-    /// What was written to the tetrahedron before its mark was set is seen after this.
     #[inline(always)]
     pub(super) fn mark(&self, tet: TetId) -> u8 {
-        (self.corners[tet.index()][0].load(SeqCst) >> MARK_SHIFT) as u8
+        (self.corners[tet.index()][0].load(Relaxed) >> MARK_SHIFT) as u8
     }
 
-    /// Sets a mark that nobody else may set at this time; what was written before is seen by whoever reads it.
     #[inline(always)]
     pub(super) fn set_mark(&self, tet: TetId, mark: u8) {
         let first = &self.corners[tet.index()][0];
         let vertex = VertexId(first.load(Relaxed) & VERTEX_BITS);
-        first.store(word(vertex, mark), Release);
-    }
-
-    /// Claims a tetrahedron at rest; false when it is another's, or vacant.
-    #[inline(always)]
-    pub(super) fn claim(&self, tet: TetId, mark: u8) -> bool {
-        let first = &self.corners[tet.index()][0];
-        let vertex = first.load(Relaxed);
-        vertex >> MARK_SHIFT == u32::from(AT_REST)
-            && first
-                .compare_exchange(vertex, word(VertexId(vertex), mark), SeqCst, Relaxed)
-                .is_ok()
+        first.store(word(vertex, mark), Relaxed);
     }
 
     /// The arrays as plain numbers, in place: corners and twins. Slots without a tetrahedron have

@@ -5,6 +5,7 @@
 //! may be infinite, and in a tetrahedron that an insertion made corner 0 is the vertex inserted.
 
 use super::{
+    blocks::Blocks,
     cells::{AT_REST, Cells},
     lattice,
 };
@@ -33,6 +34,8 @@ pub(super) struct Kernel {
     /// By vertex, or none: of a regular triangulation.
     pub(super) weights: Vec<f64>,
     pub(super) cells: Cells,
+    /// Who may touch which of them, while several workers insert.
+    pub(super) blocks: Blocks,
     /// Where new tetrahedra find vacant slots.
     regions: Vec<Region>,
     pub(super) filter: StaticFilter,
@@ -53,6 +56,7 @@ impl Kernel {
         let expected = (7 * order.len()).min(MOST_TETS);
         let mut kernel = Self {
             cells: Cells::with_capacity(expected),
+            blocks: Blocks::default(),
             regions: Vec::new(),
             filter: StaticFilter::from_bounds(bounds.min, bounds.max)
                 .with_unit(lattice::unit(&sorted, bounds)),
@@ -70,6 +74,7 @@ impl Kernel {
             points: vec![DVec3::ZERO],
             weights: Vec::new(),
             cells: Cells::default(),
+            blocks: Blocks::default(),
             regions: Vec::new(),
             filter: StaticFilter::from_bounds(DVec3::ZERO, DVec3::ZERO),
             spanning: None,
@@ -111,6 +116,7 @@ impl Kernel {
         let wanted = (self.cells.count() as f64 * factor * LEAST_SHARE) as usize;
         self.cells.spread(wanted.min(MOST_TETS));
         self.regions = Region::divide(0..self.cells.len(), workers);
+        self.blocks.prepare(self.cells.len(), workers);
     }
 
     /// The first tetrahedron of a worker's region, or any where that holds none.
@@ -128,8 +134,13 @@ impl Kernel {
         self.regions = Region::divide(0..self.cells.len(), 1);
     }
 
-    /// Makes room for more tetrahedra: little at a time, since new slots are touched.
-    pub(super) fn grow(&mut self) -> Result<(), Error> {
+    /// How many slots there are.
+    pub(super) fn slots(&self) -> usize {
+        self.cells.len()
+    }
+
+    /// Makes room for `wanted` more tetrahedra, which `workers` fill: not too much, since new slots are touched.
+    pub(super) fn grow(&mut self, wanted: usize, workers: usize) -> Result<(), Error> {
         let len = self.cells.len();
         if len >= MOST_TETS {
             return Err(Error::TooMany {
@@ -137,8 +148,10 @@ impl Kernel {
                 limit: MOST_TETS,
             });
         }
-        self.cells.grow((len + (len / 64).max(256)).min(MOST_TETS));
-        self.regions = Region::divide(len..self.cells.len(), 1);
+        let wanted = wanted.max(len / 256).max(256);
+        self.cells.grow((len + wanted).min(MOST_TETS));
+        self.regions = Region::divide(len..self.cells.len(), workers);
+        self.blocks.prepare(self.cells.len(), workers);
         Ok(())
     }
 
@@ -166,7 +179,8 @@ impl Kernel {
     }
 }
 
-/// Slots that are handed out in blocks.
+/// Slots that are handed out in blocks; away from what other threads write to.
+#[repr(align(128))]
 struct Region {
     next: AtomicUsize,
     end: usize,
@@ -177,7 +191,11 @@ impl Region {
     const BLOCK: usize = 128;
 
     fn divide(slots: Range<usize>, parts: usize) -> Vec<Self> {
-        let cut = |k: usize| slots.start + slots.len() * k / parts;
+        let cut = |k: usize| match slots.start + slots.len() * k / parts {
+            // Not within a block, which only one worker can hold.
+            cut if 0 < k && k < parts => cut.next_multiple_of(Self::BLOCK).min(slots.end),
+            cut => cut,
+        };
         (0..parts)
             .map(|k| Self {
                 next: AtomicUsize::new(cut(k)),
@@ -187,8 +205,10 @@ impl Region {
     }
 
     fn take(&self) -> Range<usize> {
-        let start = self.next.fetch_add(Self::BLOCK, Relaxed).min(self.end);
-        start..(start + Self::BLOCK).min(self.end)
+        let step = |next: usize| Some((next + 1).next_multiple_of(Self::BLOCK));
+        let start = self.next.fetch_update(Relaxed, Relaxed, step);
+        let start = start.unwrap_or(self.end).min(self.end);
+        start..(start + 1).next_multiple_of(Self::BLOCK).min(self.end)
     }
 }
 

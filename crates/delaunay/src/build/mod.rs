@@ -1,5 +1,6 @@
 //! Incremental construction: order, first tetrahedron, then for each point locate, dig, retriangulate.
 
+mod blocks;
 mod cavity;
 mod cells;
 mod conflict;

@@ -2,26 +2,21 @@
 //!
 //! The result is unique, so the order of insertion is free. Each round of the order is cut into as many
 //! stretches of the Hilbert curve as there are workers, which so work far from each other. Where two meet
-//! all the same, marks decide:
+//! all the same, [`blocks`](super::blocks) of slots decide:
 //!
-//! 1. A worker *claims* each tetrahedron that it finds in conflict: it changes the mark from "at rest" to
-//!    its own, or fails. It never waits.
-//! 2. From a claimed tetrahedron it looks at the four neighbours. One that carries another's mark ends the
-//!    insertion: all claims are released, and the point is tried again later.
-//! 3. When the whole conflict region is claimed, and no neighbour of it is, its boundary cannot change:
-//!    whoever wants to remove a tetrahedron behind the boundary claims it and looks at *its* neighbours,
-//!    ours among them. Claims and looks are sequentially consistent, so of two such workers at least one
-//!    sees the other.
-//! 4. New tetrahedra carry the mark until all twins are set.
+//! 1. A worker reads and writes only tetrahedra in blocks that it *holds*; the new ones too. A block that nobody
+//!    holds it takes, and holds from then on. So what one insertion sees is whole, and what it leaves is.
+//! 2. When another holds the block, the insertion ends before it has changed anything, and the point is tried again
+//!    later. The other is told, and lets *all* its blocks go before its next insertion. Nobody waits.
+//! 3. Whoever lets a block go publishes what it wrote; whoever takes it sees that.
 //!
-//! A twin may have been read just before a neighbour's replacement was complete, and the neighbour's slot
-//! be at rest again, in another place. The replacement sets our twin before its marks go, so reading the
-//! twin once more after the mark shows it ([`Worker::dig`]).
+//! On samples of volumes two workers hardly ever meet, and a block is taken once for hundreds of insertions. On
+//! surfaces they meet often, since long tetrahedra cross the inside, and hold few blocks at a time.
 //!
-//! Walks read without any claim and may see anything; what they find is claimed and then tested.
+//! Walks read what they do not hold, and may see anything; where they end is held and then tested.
 
 use super::{
-    cells::KEPT,
+    blocks::Blocks,
     kernel::Kernel,
     worker::{Outcome, Worker},
 };
@@ -30,7 +25,7 @@ use pellicle_geometry::{Cancelled, Progress, VertexId};
 use pellicle_predicates::lanes::{Registers, Vectorized, vectorized};
 use std::{
     ops::Range,
-    sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed},
+    sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed},
 };
 
 /// Points that a worker takes at once, and that are inserted between two calls of the observer: a
@@ -43,13 +38,10 @@ const LEAST_SHARED_ROUND: usize = 8192;
 /// How often a worker tries again what others were in the way of, before it leaves it to the end.
 const ATTEMPTS: usize = 4;
 
-/// As many as there are marks for.
-const MOST_WORKERS: usize = KEPT as usize - 1;
-
 /// Inserts the points after the first four, round by round.
 pub(super) fn insert_all(kernel: &mut Kernel, progress: &dyn Progress) -> Result<(), Error> {
     let end = kernel.points.len();
-    let threads = rayon::current_num_threads().clamp(1, MOST_WORKERS);
+    let threads = rayon::current_num_threads().clamp(1, Blocks::MOST_WORKERS);
     let mut workers: Vec<Crew> = (0..threads).map(|index| Crew::new(index, end)).collect();
     let mut start = 5.min(end);
     for round_end in round_ends(end) {
@@ -77,7 +69,8 @@ fn round_ends(points: usize) -> impl Iterator<Item = usize> {
         .filter(|&end| end > 5)
 }
 
-/// A worker and what it still has to insert.
+/// A worker and what it still has to insert; away from what other threads write to.
+#[repr(align(128))]
 struct Crew {
     worker: Worker,
     postponed: Vec<VertexId>,
@@ -92,20 +85,51 @@ impl Crew {
     }
 }
 
-/// Consecutive points that workers take chunks of.
-struct Stretch {
-    next: AtomicUsize,
-    end: usize,
-}
+/// Consecutive points that a worker takes chunks of from the front, and others half from the back: the next one in the
+/// upper, the end in the lower half of the word.
+#[repr(align(128))]
+struct Stretch(AtomicU64);
 
 impl Stretch {
-    fn take(&self) -> Option<Range<usize>> {
-        let start = self.next.fetch_add(CHUNK, Relaxed);
-        (start < self.end).then(|| start..(start + CHUNK).min(self.end))
+    fn new(points: Range<usize>) -> Self {
+        Self(AtomicU64::new(Self::word(points)))
+    }
+
+    fn word(points: Range<usize>) -> u64 {
+        (points.start as u64) << 32 | points.end as u64
+    }
+
+    fn points(word: u64) -> Range<usize> {
+        (word >> 32) as usize..word as u32 as usize
     }
 
     fn left(&self) -> usize {
-        self.end.saturating_sub(self.next.load(Relaxed))
+        Self::points(self.0.load(Relaxed)).len()
+    }
+
+    /// Divides what is left: the points to keep, and those to take.
+    fn take(
+        &self,
+        divide: impl Fn(Range<usize>) -> Option<(Range<usize>, Range<usize>)>,
+    ) -> Option<Range<usize>> {
+        let keep = |word| divide(Self::points(word)).map(|(kept, _)| Self::word(kept));
+        let word = self.0.fetch_update(Relaxed, Relaxed, keep).ok()?;
+        divide(Self::points(word)).map(|(_, taken)| taken)
+    }
+
+    fn chunk(&self) -> Option<Range<usize>> {
+        self.take(|Range { start, end }| {
+            let cut = (start + CHUNK).min(end);
+            (start < end).then_some((cut..end, start..cut))
+        })
+    }
+
+    /// Of what the owner is at, only what lies far from there.
+    fn back_half(&self) -> Option<Range<usize>> {
+        self.take(|Range { start, end }| {
+            let cut = start.midpoint(end);
+            (end - start >= 4 * CHUNK).then_some((start..cut, cut..end))
+        })
     }
 }
 
@@ -117,6 +141,8 @@ struct Round<'a> {
     done: AtomicUsize,
     progress: &'a dyn Progress,
     total: u64,
+    /// One after the last point of the round.
+    end: usize,
 }
 
 impl<'a> Round<'a> {
@@ -124,16 +150,14 @@ impl<'a> Round<'a> {
         let cut = |k: usize| points.start + points.len() * k / workers;
         Self {
             stretches: (0..workers)
-                .map(|k| Stretch {
-                    next: AtomicUsize::new(cut(k)),
-                    end: cut(k + 1),
-                })
+                .map(|k| Stretch::new(cut(k)..cut(k + 1)))
                 .collect(),
             full: AtomicBool::new(false),
             cancelled: AtomicBool::new(false),
             done: AtomicUsize::new(points.start),
             progress,
             total,
+            end: points.end,
         }
     }
 
@@ -141,7 +165,8 @@ impl<'a> Round<'a> {
     fn run(mut self, kernel: &mut Kernel, crews: &mut [Crew]) -> Result<(), Error> {
         while !self.is_over(crews) {
             if *self.full.get_mut() {
-                kernel.grow()?;
+                let inserted = self.inserted(crews);
+                kernel.grow(self.wanted(kernel, inserted), crews.len())?;
                 *self.full.get_mut() = false;
             }
             let shared: &Kernel = kernel;
@@ -170,6 +195,19 @@ impl<'a> Round<'a> {
         Ok(())
     }
 
+    /// How many points are in the tetrahedralisation.
+    fn inserted(&mut self, crews: &[Crew]) -> usize {
+        let postponed: usize = crews.iter().map(|crew| crew.postponed.len()).sum();
+        *self.done.get_mut() - postponed
+    }
+
+    /// How many tetrahedra are to be expected beyond those that fill all slots, when the points to come make as many
+    /// as those before: seven eighths of them, so as not to ask for too much.
+    fn wanted(&self, kernel: &Kernel, inserted: usize) -> usize {
+        let by_point = kernel.slots() as f64 / inserted as f64;
+        (0.875 * by_point * (self.end - inserted) as f64) as usize
+    }
+
     fn is_over(&self, crews: &[Crew]) -> bool {
         self.stretches.iter().all(|stretch| stretch.left() == 0)
             && crews.iter().all(|crew| crew.postponed.is_empty())
@@ -182,13 +220,16 @@ impl<'a> Round<'a> {
             index,
             crew,
         });
+        crew.worker.held.release(&kernel.blocks);
     }
 
-    /// A chunk of the worker's own stretch, or of the one with most left.
+    /// A chunk of the worker's own stretch; when that is done, it is given half of what another has left.
     fn take(&self, index: usize) -> Option<Range<usize>> {
-        self.stretches[index].take().or_else(|| {
+        let own = &self.stretches[index];
+        own.chunk().or_else(|| {
             let fullest = self.stretches.iter().max_by_key(|stretch| stretch.left())?;
-            fullest.take()
+            own.0.store(Stretch::word(fullest.back_half()?), Relaxed);
+            own.chunk()
         })
     }
 
@@ -224,9 +265,13 @@ impl<const SHARED: bool> Vectorized for Turn<'_, SHARED> {
         } = self;
         let mut pending = std::mem::take(&mut crew.postponed);
         let mut attempts = 0;
+        let mut patience = Patience::default();
         loop {
             for (k, &vertex) in pending.iter().enumerate() {
                 let worker = &mut crew.worker;
+                if SHARED {
+                    worker.held.yield_if_wanted(&kernel.blocks);
+                }
                 let outcome = match kernel.weights.is_empty() {
                     true => {
                         let point = kernel.point(vertex);
@@ -254,13 +299,46 @@ impl<const SHARED: bool> Vectorized for Turn<'_, SHARED> {
             }
             if let Some(chunk) = round.take(index) {
                 round.tell(chunk.len());
+                if patience.ends(crew.postponed.len()) {
+                    pending.append(&mut crew.postponed);
+                }
                 pending.extend(chunk.map(VertexId::new));
             } else if !crew.postponed.is_empty() && attempts < ATTEMPTS {
                 attempts += 1;
+                // Perhaps it is the one who runs on this core that is in the way.
+                std::thread::yield_now();
                 std::mem::swap(&mut pending, &mut crew.postponed);
             } else {
                 return;
             }
         }
+    }
+}
+
+/// When to try again what others were in the way of: the longer a thread in the way stays, as one does that waits for a
+/// core, the more seldom.
+#[derive(Default)]
+struct Patience {
+    /// Chunks to the next try.
+    left: usize,
+    /// Chunks between the last try and the next one.
+    interval: usize,
+    /// Points that were tried last.
+    tried: usize,
+}
+
+impl Patience {
+    /// With so many points postponed, after another chunk.
+    fn ends(&mut self, postponed: usize) -> bool {
+        if self.left > 0 {
+            self.left -= 1;
+            return false;
+        }
+        self.interval = match postponed >= self.tried && postponed > 0 {
+            true => (2 * self.interval + 1).min(64),
+            false => 0,
+        };
+        (self.left, self.tried) = (self.interval, postponed);
+        true
     }
 }

@@ -2,10 +2,10 @@
 //! tetrahedra, twins and marks are stored is known up to here.
 
 use super::{
-    cells::{AT_REST, KEPT},
+    cells::{AT_REST, IN_CONFLICT, KEPT},
     first,
     kernel::{INFINITE, Kernel, MOST_TETS},
-    worker::Worker,
+    worker::{Room, Worker},
 };
 use crate::{Error, FacetId, TetId, id::facet_vertices};
 use glam::DVec3;
@@ -175,7 +175,7 @@ impl Stepwise {
     }
 
     fn dig_from(&mut self, start: TetId, p: DVec3) {
-        self.kernel.cells.set_mark(start, self.worker.mark);
+        self.kernel.cells.set_mark(start, IN_CONFLICT);
         let is_dug = vectorized(Dig {
             kernel: &self.kernel,
             worker: &mut self.worker,
@@ -188,7 +188,7 @@ impl Stepwise {
     /// Fills the cavity with tetrahedra around a vertex; without room for them, leaves it as it was.
     fn fill_cavity(&mut self, vertex: VertexId) -> Result<(), Error> {
         let growth = self.worker.cavity.growth();
-        while !self.worker.reserve(&self.kernel, growth) {
+        while self.worker.reserve::<false>(&self.kernel, growth) != Room::Enough {
             if let Err(error) = self.grow() {
                 self.worker.release(&self.kernel);
                 return Err(error);
@@ -215,16 +215,16 @@ impl Stepwise {
     /// Whether the last [`dig_around`](Self::dig_around) found this one.
     #[inline]
     pub(crate) fn is_dug(&self, tet: TetId) -> bool {
-        self.kernel.cells.mark(tet) == self.worker.mark
+        self.kernel.cells.mark(tet) == IN_CONFLICT
     }
 
     /// Makes the tetrahedra at a vertex, of which `start` is one, the hole.
     pub(crate) fn dig_star(&mut self, start: TetId, vertex: VertexId) {
-        let (cells, mine) = (&self.kernel.cells, self.worker.mark);
+        let cells = &self.kernel.cells;
         let Self { hole, link, .. } = self;
         hole.clear();
         link.clear();
-        cells.set_mark(start, mine);
+        cells.set_mark(start, IN_CONFLICT);
         hole.push(start);
         let mut next = 0;
         while let Some(&tet) = hole.get(next) {
@@ -236,8 +236,8 @@ impl Stepwise {
                         corners: facet_vertices(corners, i),
                         outer,
                     });
-                } else if cells.mark(outer.tet()) != mine {
-                    cells.set_mark(outer.tet(), mine);
+                } else if cells.mark(outer.tet()) != IN_CONFLICT {
+                    cells.set_mark(outer.tet(), IN_CONFLICT);
                     hole.push(outer.tet());
                 }
             }
@@ -269,7 +269,7 @@ impl Stepwise {
 
     /// Adds a tetrahedron that is not joined to anything yet.
     pub(crate) fn place(&mut self, corners: [VertexId; 4]) -> Result<TetId, Error> {
-        while !self.worker.reserve(&self.kernel, 1) {
+        while self.worker.reserve::<false>(&self.kernel, 1) != Room::Enough {
             self.grow()?;
         }
         let tet = self.worker.kept.pop().expect("a slot is reserved");
@@ -306,7 +306,7 @@ impl Stepwise {
         if self.tet_slots() >= self.most_tets {
             return Err(self.too_many());
         }
-        self.kernel.grow()
+        self.kernel.grow(self.tet_slots() / 64, 1)
     }
 
     fn too_many(&self) -> Error {

@@ -1,8 +1,9 @@
 //! One thread's part in the insertion: locate, dig, retriangulate.
 
 use super::{
+    blocks::Held,
     cavity::Cavity,
-    cells::{AT_REST, KEPT, VACANT},
+    cells::{AT_REST, IN_CONFLICT, KEPT, VACANT},
     conflict::Query,
     kernel::Kernel,
 };
@@ -24,8 +25,9 @@ pub(super) enum Outcome {
 }
 
 pub(super) struct Worker {
-    /// The mark of what this worker has claimed.
-    pub(super) mark: u8,
+    index: usize,
+    /// The blocks that no other worker touches.
+    pub(super) held: Held,
     pub(super) cavity: Cavity,
     /// Slots kept for new tetrahedra.
     pub(super) kept: Vec<TetId>,
@@ -36,10 +38,11 @@ pub(super) struct Worker {
 }
 
 impl Worker {
-    /// The `index`-th worker, below 253, for a kernel with so many vertices.
+    /// The `index`-th worker, below [`Blocks::MOST_WORKERS`], for a kernel with so many vertices.
     pub(super) fn new(index: usize, vertices: usize) -> Self {
         Self {
-            mark: index as u8 + 1,
+            index,
+            held: Held::by_worker(index),
             cavity: Cavity::for_vertices(vertices),
             kept: Vec::new(),
             slots: 0..0,
@@ -56,34 +59,39 @@ impl Worker {
         vertex: VertexId,
         query: impl Query,
     ) -> Outcome {
-        // 1. A tetrahedron in conflict, claimed.
+        // 1. A tetrahedron in conflict.
         let Some(start) = self.locate::<SHARED>(kernel, query.position()) else {
             return Outcome::Contended;
         };
-        if SHARED && !kernel.cells.claim(start, self.mark) {
+        if SHARED && !(self.held.hold(&kernel.blocks, start) && kernel.cells.mark(start) == AT_REST)
+        {
             return Outcome::Contended;
         }
-        if !SHARED {
-            kernel.cells.set_mark(start, self.mark);
-        }
         if !kernel.is_in_conflict(start, query) {
-            // A weight may hide the point. Or others changed the tetrahedron between the walk and the claim.
+            // A weight may hide the point. Or others changed the tetrahedron on the way.
             let is_hidden = !SHARED || kernel.contains(start, query.position());
-            kernel.cells.set_mark(start, AT_REST);
             return match is_hidden {
                 true => Outcome::Hidden,
                 false => Outcome::Contended,
             };
         }
-        // 2. All of them, claimed.
+        kernel.cells.set_mark(start, IN_CONFLICT);
+        // 2. All of them.
         if !self.dig::<SHARED, R>(registers, kernel, start, query) {
             self.release(kernel);
             return Outcome::Contended;
         }
         // 3. Room for those that take their place.
-        if !self.reserve(kernel, self.cavity.growth()) {
-            self.release(kernel);
-            return Outcome::Full;
+        match self.reserve::<SHARED>(kernel, self.cavity.growth()) {
+            Room::Enough => {}
+            Room::Contended => {
+                self.release(kernel);
+                return Outcome::Contended;
+            }
+            Room::None => {
+                self.release(kernel);
+                return Outcome::Full;
+            }
         }
         // 4. The new ones.
         self.retriangulate(kernel, vertex);
@@ -97,26 +105,44 @@ impl Worker {
         self.recent = recent;
     }
 
-    /// Whether there are slots for so many new tetrahedra beside those of the conflict region.
+    /// Looks for slots for so many new tetrahedra beside those of the conflict region.
     #[inline(always)]
-    pub(super) fn reserve(&mut self, kernel: &Kernel, slots: usize) -> bool {
+    pub(super) fn reserve<const SHARED: bool>(&mut self, kernel: &Kernel, slots: usize) -> Room {
         while self.kept.len() < slots {
-            if self.slots.is_empty() {
-                self.slots = kernel.take_slots(usize::from(self.mark - 1));
+            let Some(slot) = self.slots.clone().next().map(TetId::new) else {
+                self.slots = kernel.take_slots(self.index);
                 if self.slots.is_empty() {
-                    return false;
+                    return Room::None;
                 }
+                continue;
+            };
+            if SHARED && !self.held.hold(&kernel.blocks, slot) {
+                return Room::Contended;
             }
-            for slot in self.slots.by_ref().map(TetId::new) {
-                if kernel.cells.mark(slot) == VACANT {
-                    kernel.cells.set_mark(slot, KEPT);
-                    self.kept.push(slot);
-                    if self.kept.len() == slots {
-                        break;
-                    }
-                }
+            self.slots.start += 1;
+            if kernel.cells.mark(slot) == VACANT {
+                kernel.cells.set_mark(slot, KEPT);
+                self.kept.push(slot);
             }
         }
-        true
+        if SHARED {
+            // Those kept for long may lie in a block that another holds by now.
+            let first = self.kept.len() - slots;
+            let mut others = self.kept[first..].iter();
+            if let Some(k) = others.position(|&slot| !self.held.hold(&kernel.blocks, slot)) {
+                self.kept.swap(0, first + k);
+                return Room::Contended;
+            }
+        }
+        Room::Enough
     }
+}
+
+/// Whether there are slots for new tetrahedra.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Room {
+    Enough,
+    /// Another worker holds what would have to be looked at.
+    Contended,
+    None,
 }
