@@ -4,7 +4,13 @@
 pub mod inputs;
 
 use pellicle_geometry::DVec3;
-use std::{error::Error, fs, io, path::Path, time::Duration};
+use std::{
+    error::Error,
+    fs,
+    io::{self, Read},
+    path::Path,
+    time::Duration,
+};
 
 /// What `main` returns.
 pub type Outcome<T = ()> = Result<T, Box<dyn Error>>;
@@ -50,17 +56,17 @@ impl Arguments {
 
 /// Points as little-endian doubles, three each.
 pub fn read(path: &Path) -> io::Result<Vec<DVec3>> {
-    let bytes = fs::read(path)?;
-    let mut doubles = bytes.chunks_exact(8).map(|eight| {
-        f64::from_le_bytes(
-            eight
-                .try_into()
-                .expect("chunks of eight bytes have eight bytes"),
-        )
-    });
-    let mut points = Vec::with_capacity(bytes.len() / 24);
-    while let (Some(x), Some(y), Some(z)) = (doubles.next(), doubles.next(), doubles.next()) {
-        points.push(DVec3::new(x, y, z));
+    // Little by little: a large block, once freed, would let the allocator keep what it frees later, and the peak of what is
+    // measured would be another.
+    let mut file = io::BufReader::new(fs::File::open(path)?);
+    let count = file.get_ref().metadata()?.len() / 24;
+    let mut points = Vec::with_capacity(count as usize);
+    let mut point = [[0; 8]; 3];
+    for _ in 0..count {
+        for eight in &mut point {
+            file.read_exact(eight)?;
+        }
+        points.push(DVec3::from_array(point.map(f64::from_le_bytes)));
     }
     Ok(points)
 }

@@ -122,7 +122,13 @@ fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
         .zip(starts)
         .for_each(|(lists, start)| number(tets, &of, lists, start));
 
-    let mut infinite: Vec<u32> = lists.into_iter().flat_map(|lists| lists.infinite).collect();
+    let infinite = lists.into_iter().map(|lists| lists.infinite);
+    let mut infinite = infinite
+        .reduce(|mut all, mut more| {
+            all.append(&mut more);
+            all
+        })
+        .unwrap_or_default();
     infinite.par_sort_unstable_by_key(|&t| tets[t as usize]);
     let unused = (0..tets.len() as u32).filter(|&t| tets[t as usize][0] == UNUSED);
     let used = finite as usize + infinite.len();
