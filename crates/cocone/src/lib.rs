@@ -33,6 +33,7 @@ mod canonical;
 mod error;
 mod facet_set;
 mod normals;
+mod observer;
 mod options;
 mod poles;
 mod prune;
@@ -48,6 +49,7 @@ mod walk;
 
 pub use error::Error;
 pub use normals::{normals, normals_with};
+pub use observer::Observer;
 pub use options::{Acceptance, Method, Options};
 pub use report::{Component, Report};
 
@@ -97,12 +99,23 @@ pub fn reconstruct_with(
     options: &Options,
     progress: &dyn Progress,
 ) -> Result<Reconstruction, Error> {
+    reconstruct_observed(tetrahedralization, options, progress, &mut ())
+}
+
+/// [`reconstruct_with`], whose stages are shown to `observer`.
+pub fn reconstruct_observed(
+    tetrahedralization: &Tetrahedralization,
+    options: &Options,
+    progress: &dyn Progress,
+    observer: &mut dyn Observer,
+) -> Result<Reconstruction, Error> {
     let step = |done| Cancelled::check(progress.step("reconstruct", done, 7));
     step(0)?;
 
     // 1. Poles and pole vectors.
     let canonical = Canonical::of(tetrahedralization);
     let poles = Poles::of(&canonical);
+    observer::show_pole_vectors(observer, &canonical, &poles);
     step(1)?;
 
     // 2. The triangles that meet cocones, and the vertices that are sampled well enough to say so.
@@ -114,6 +127,9 @@ pub fn reconstruct_with(
     let mut candidates = wishes.candidates(&canonical, &flat, options.acceptance);
     drop((wishes, poles));
     let candidate_triangles = candidates.len();
+    if observer.is_watching() {
+        observer.candidates(&observer::facets(&canonical, &candidates));
+    }
     step(3)?;
 
     // 4. Prune sharp edges, but for what a first walk shows to be surface; then walk the manifold.
@@ -124,6 +140,10 @@ pub fn reconstruct_with(
     if candidates.len() < candidate_triangles {
         walked = walk::extract(&canonical, &candidates, &radial);
     }
+    if observer.is_watching() {
+        observer.pruned(&observer::facets(&canonical, &candidates));
+    }
+    observer::show_walked(observer, &canonical, &radial, &walked);
     step(5)?;
 
     // 5. The surface itself, or the solid that it bounds where it is closed.
