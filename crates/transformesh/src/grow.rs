@@ -4,18 +4,23 @@
 //! on a piece of a cut triangle, that waits in a queue P of partially valid ones until V is empty. What was taken is G.
 
 use crate::observer::{Observer, Piece};
-use pellicle_mesh::{HalfEdgeId, TriMesh, TriangleId};
+use pellicle_mesh::{HalfEdgeId, MeshView, TriMesh, TriangleId};
 use std::collections::VecDeque;
 
 /// Shows an observer the result, component by component: the seed, then each piece as it is taken.
-pub(crate) fn grow(mesh: &TriMesh, sources: &[TriangleId], observer: &mut dyn Observer) {
-    // A source with several pieces was cut.
-    let mut pieces = vec![0_u32; sources.iter().map(|s| s.index() + 1).max().unwrap_or(0)];
-    for source in sources {
-        pieces[source.index()] += 1;
-    }
+pub(crate) fn grow(
+    input: MeshView,
+    mesh: &TriMesh,
+    sources: &[TriangleId],
+    observer: &mut dyn Observer,
+) {
     let source = |t: TriangleId| sources.get(t.index()).copied().unwrap_or(t);
-    let is_whole = |t: TriangleId| pieces.get(source(t).index()) == Some(&1);
+    // Whole is what has the corners of its source; of a cut one there may be a single piece left.
+    let is_whole = |t: TriangleId| {
+        let corners = mesh.corners(t);
+        let given = input.corners(source(t));
+        given.is_some_and(|given| given.iter().all(|corner| corners.contains(corner)))
+    };
     let piece = |t: TriangleId| Piece {
         triangle: source(t),
         corners: mesh.corners(t),

@@ -346,7 +346,7 @@ impl Work<'_> {
         }
         report.volume[1] = signed_volume(result.into());
         if self.observer.is_watching() {
-            grow(result, &report.sources, self.observer);
+            grow(input, result, &report.sources, self.observer);
         }
     }
 }

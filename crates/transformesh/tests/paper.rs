@@ -217,6 +217,23 @@ fn figures_1_to_4_every_state_can_be_seen() {
     let is_partial = |piece: &Piece| seen.cut.iter().any(|(t, _)| *t == piece.triangle);
     let first_partial = seen.grown.iter().position(is_partial).unwrap();
     assert!(first_partial > 100, "{first_partial}");
+    // Also those of which a single piece is left: none waits among the whole ones, next to which it was found.
+    for place in 1..seen.grown.len() {
+        let [before, piece] = [&seen.grown[place - 1], &seen.grown[place]];
+        let borders = |other: &Piece| {
+            let shared = other.corners.iter().filter(|c| piece.corners.contains(c));
+            shared.count() == 2
+        };
+        if is_partial(before) && !is_partial(piece) && !seen.seeds.contains(piece) {
+            // V was empty: only that last piece can have brought a whole one.
+            assert!(borders(before), "{place}");
+        }
+    }
+    let single = seen.cut.iter().filter(|(t, _)| {
+        let pieces = seen.grown.iter().filter(|piece| piece.triangle == *t);
+        pieces.count() == 1
+    });
+    assert!(single.count() > 0);
 }
 
 #[test]
