@@ -43,6 +43,7 @@ mod random;
 pub mod raster;
 pub mod robustness;
 mod sampler;
+pub mod scene;
 mod shape;
 pub mod shapes;
 pub mod sheet;
