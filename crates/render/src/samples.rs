@@ -276,14 +276,20 @@ impl Samples<'_> {
         let ((x1, y1), near1) = to;
         let (ex, ey) = (x1 - x0, y1 - y0);
         let length_squared = ex * ex + ey * ey;
-        // Pieces about as long as they are wide, so that their boxes hold little else.
-        let pieces = (length_squared.sqrt() / (4.0 * half_width)).ceil().max(1.0) as usize;
-        for piece in 0..pieces {
-            let middle = (piece as f64 + 0.5) / pieces as f64;
-            let reach = half_width + 0.5 * length_squared.sqrt() / pieces as f64;
-            let center = (x0 + ex * middle, y0 + ey * middle);
-            self.around(center, reach, |samples, at, dx, dy| {
-                let (px, py) = (center.0 + dx - x0, center.1 + dy - y0);
+        let length = length_squared.sqrt();
+        for row in rows_of([y0, y1], half_width, &self.rows) {
+            let y = row as f64 + 0.5;
+            // Where the row lies in the strip around the line, and between the ends.
+            let middle = x0 + (y - y0) * ex / ey;
+            let reach = half_width * length / ey.abs();
+            // Of a level line these are no numbers, and bound nothing.
+            let left = (x0.min(x1) - half_width).max(middle - reach);
+            let right = (x0.max(x1) + half_width).min(middle + reach);
+            let columns = (left - 0.501).ceil().max(0.0) as usize
+                ..((right - 0.499).floor() + 1.0).clamp(0.0, self.width as f64) as usize;
+            let start = (row - self.rows.start) * self.width;
+            for column in columns {
+                let (px, py) = (column as f64 + 0.5 - x0, y - y0);
                 let along = if length_squared > 0.0 {
                     ((px * ex + py * ey) / length_squared).clamp(0.0, 1.0)
                 } else {
@@ -291,12 +297,13 @@ impl Samples<'_> {
                 };
                 let (ox, oy) = (px - ex * along, py - ey * along);
                 let nearness = near0 + (near1 - near0) * along;
-                let stored = f64::from(samples.nearness[at]);
+                let at = start + column;
+                let stored = f64::from(self.nearness[at]);
                 if ox * ox + oy * oy <= half_width * half_width && nearness + lift >= stored {
-                    samples.what[at] = what;
-                    samples.nearness[at] = samples.nearness[at].max(nearness as f32);
+                    self.what[at] = what;
+                    self.nearness[at] = self.nearness[at].max(nearness as f32);
                 }
-            });
+            }
         }
     }
 }
@@ -323,11 +330,15 @@ pub fn triangle_rows(corners: [Corner; 3], height: usize) -> Range<usize> {
     centers_between(corners.map(|corner| corner.y), &(0..height))
 }
 
-/// The rows that a disc, or a line from the first to the last y, covers at most.
+/// The rows that a disc, or a line from the first to the last y, covers at most, of all there are.
 pub fn rows_between(y: [f64; 2], radius: f64, height: usize) -> Range<usize> {
+    rows_of(y, radius, &(0..height))
+}
+
+/// Of these rows those that a line from the first to the last y covers at most.
+fn rows_of(y: [f64; 2], radius: f64, rows: &Range<usize>) -> Range<usize> {
     let (low, high) = (y[0].min(y[1]), y[0].max(y[1]));
-    let start = centers_around(low, radius, &(0..height)).start;
-    start..centers_around(high, radius, &(0..height)).end
+    centers_around(low, radius, rows).start..centers_around(high, radius, rows).end
 }
 
 /// Twice the signed area in the samples' frame: positive when `a, b, c` turn *clockwise* to the viewer, since y
