@@ -38,6 +38,7 @@
 
 mod cloud;
 mod contact;
+mod covolumes;
 pub mod distance;
 mod error;
 mod evolve;
@@ -60,6 +61,7 @@ mod velocity;
 #[cfg(test)]
 mod tests;
 
+pub use covolumes::Covolumes;
 pub use distance::{DistanceGrid, DistanceOptions, Storage};
 pub use error::Error;
 pub use evolve::{Topology, evolve, evolve_adapting, evolve_with};

@@ -1,6 +1,6 @@
 //! Figures that a right implementation shows on a sphere.
 
-use pellicle_evolution::{Evolution, One, Redistribution, StepOptions};
+use pellicle_evolution::{Covolumes, Error, Evolution, One, Redistribution, StepOptions};
 use pellicle_geometry::DVec3;
 use pellicle_mesh::{AngleBounds, icosphere, quality};
 
@@ -111,4 +111,30 @@ fn angle_aware_redistribution_mends_angles() {
         "{uniform:?} {aware:?}"
     );
     assert!(aware.vertex_area_variation < 0.05, "{aware:?}");
+}
+
+#[test]
+fn covolumes_measure_a_sphere() {
+    let mut mesh = icosphere(4).unwrap();
+    let radius = 3.0;
+    let scaled = mesh.positions().iter().map(|&p| radius * p).collect();
+    mesh.set_positions(scaled).unwrap();
+    let covolumes = Covolumes::of(&mesh).unwrap();
+    let sum: f64 = covolumes.areas.iter().sum();
+    let area = pellicle_mesh::area((&mesh).into());
+    assert!((sum - area).abs() < 1e-10 * area);
+    for (i, p) in mesh.positions().iter().enumerate() {
+        assert!(covolumes.normals[i].dot(*p) > 0.999 * radius);
+        assert!(covolumes.curvature_vectors[i].dot(*p) < 0.0);
+        // At vertices of five triangles −2.29, elsewhere −2.
+        let curvature = covolumes.curvatures[i] * radius;
+        let valence = mesh.neighbors(pellicle_geometry::VertexId::new(i)).count();
+        let bounds = if valence == 5 { 2.25..2.33 } else { 1.9..2.1 };
+        assert!(bounds.contains(&-curvature), "{valence} {curvature}");
+    }
+    // An open surface has none.
+    let mut open = mesh.into_soup();
+    open.triangles.pop();
+    let open = pellicle_mesh::TriMesh::try_from(open).unwrap();
+    assert!(matches!(Covolumes::of(&open), Err(Error::NotClosed { .. })));
 }
