@@ -31,7 +31,7 @@ pub struct Covolumes {
     /// H_i = h_i · N_i: −2/R on a sphere of radius R, negative where the surface is convex.
     ///
     /// As the edges shorten, the barycentric area does not give the curvature at every vertex: where five triangles of a sphere
-    /// meet it tends to −2.29/R.
+    /// meet it tends to −2.29/R. [`pellicle_mesh::mean_curvatures`] has mixed areas.
     pub curvatures: Vec<f64>,
 }
 

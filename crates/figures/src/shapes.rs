@@ -93,7 +93,7 @@ pub fn bust() -> Shape {
 /// Two ellipsoids, one a little dented, side by side: like the vesicles of figures 13 to 15. Their clouds are sparse,
 /// 400 to 800 points each, and have outliers.
 pub fn vesicles() -> [Shape; 2] {
-    [
+    pair([
         ("left vesicle", [-52.0, 3.0, 0.0], [36.0, 27.0, 22.0], 0.06),
         (
             "right vesicle",
@@ -101,8 +101,30 @@ pub fn vesicles() -> [Shape; 2] {
             [30.0, 35.0, 24.0],
             -0.09,
         ),
-    ]
-    .map(|(name, center, semi_axes, height)| {
+    ])
+}
+
+/// Two more, more dented and of different sizes: the other embryo, of figure 15.
+pub fn other_vesicles() -> [Shape; 2] {
+    pair([
+        (
+            "other left vesicle",
+            [-46.0, -4.0, 2.0],
+            [30.0, 38.0, 26.0],
+            -0.14,
+        ),
+        (
+            "other right vesicle",
+            [47.0, 5.0, -3.0],
+            [41.0, 25.0, 24.0],
+            0.13,
+        ),
+    ])
+}
+
+/// Two ellipsoids by name, centre and semi-axes, with lobes of a height.
+fn pair(of: [(&'static str, [f64; 3], [f64; 3], f64); 2]) -> [Shape; 2] {
+    of.map(|(name, center, semi_axes, height)| {
         let vesicle = Star {
             center: center.into(),
             semi_axes: semi_axes.into(),
@@ -117,6 +139,7 @@ pub fn vesicles() -> [Shape; 2] {
 pub fn all() -> Vec<Shape> {
     let mut shapes = vec![ellipsoid(), vase(), body(), bumpy_sphere(), bust()];
     shapes.extend(vesicles());
+    shapes.extend(other_vesicles());
     shapes
 }
 
