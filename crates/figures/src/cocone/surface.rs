@@ -231,7 +231,7 @@ mod tests {
     fn epsilon_is_what_the_hull_of_points_on_a_sphere_says() {
         // On the sphere the farthest places are the directions of the facets of the convex hull.
         let mut random = Random::new(2, 0);
-        for count in [40, 400] {
+        for count in [40, 400, 4000] {
             let points: Vec<DVec3> = (0..count)
                 .map(|_| Surface::Sphere.random_point(&mut random))
                 .collect();
