@@ -52,6 +52,11 @@ impl Held {
         blocks.owners[block].load(Relaxed) == self.owner || self.take(blocks, block)
     }
 
+    /// Whether the worker holds the tetrahedron's block.
+    pub(super) fn holds(&self, blocks: &Blocks, tet: TetId) -> bool {
+        blocks.owners[tet.index() >> BLOCK_SHIFT].load(Relaxed) == self.owner
+    }
+
     /// What others have written to a block before they let it go is seen from here on.
     #[cold]
     #[inline(never)]

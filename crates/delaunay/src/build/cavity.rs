@@ -195,6 +195,17 @@ impl Worker {
         true
     }
 
+    /// Whether the worker holds all that is written to: the conflict region, what is around it, and slots reserved.
+    pub(super) fn holds_cavity(&self, kernel: &Kernel) -> bool {
+        let outer = self.cavity.boundary[..self.cavity.boundary_count].iter();
+        let reserved = self.kept.len().saturating_sub(self.cavity.growth());
+        let mut slots = outer
+            .map(|facet| facet.outer.tet())
+            .chain(self.cavity.conflict().iter().copied())
+            .chain(self.kept[reserved..].iter().copied());
+        slots.all(|slot| self.held.holds(&kernel.blocks, slot))
+    }
+
     /// Gives the conflict region back as it was.
     #[cold]
     pub(super) fn release(&mut self, kernel: &Kernel) {

@@ -94,6 +94,7 @@ impl Worker {
             }
         }
         // 4. The new ones.
+        debug_assert!(!SHARED || self.holds_cavity(kernel));
         self.retriangulate(kernel, vertex);
         Outcome::Inserted
     }
