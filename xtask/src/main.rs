@@ -5,10 +5,12 @@ mod bench;
 mod campaign;
 mod ci;
 mod figures;
+mod guide;
 mod picture;
 mod readme;
 mod tidy;
 
+use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitCode};
 
@@ -24,7 +26,8 @@ usage: cargo xtask <task>
   figures [--quick] [--only NAME,…]  what the papers show: docs/figures/ and docs/REPRODUCTION.md. --quick writes nothing, and
                                     compares the numbers with the stored ones, as the tests do; --list tells the names;
                                     --page makes only the page anew, after a merge
-  picture the README's commands, and the picture that they make
+  picture [--guide]                 the README's commands, and the picture that they make; --guide: those of the guide's
+                                    chapters
   bench --table                     every fixture reconstructed: docs/benchmarks/fixtures.md
   bench --delaunay [OPTION …] [INPUT …]
                                     tetrahedralisation, beside CGAL, HXT and TetGen where they are installed:
@@ -50,6 +53,7 @@ fn main() -> ExitCode {
         ["ci"] => ci::run(&root()),
         ["tidy"] => tidy::run(&root()),
         ["picture"] => picture::run(&root()),
+        ["picture", "--guide"] => guide::run(&root()),
         ["figures", arguments @ ..] => figures::run(&root(), arguments),
         ["campaign", arguments @ ..] => campaign::run(&root(), arguments),
         ["bench", arguments @ ..] => bench::run(&root(), arguments),
@@ -114,4 +118,14 @@ fn cargo_metadata(root: &Path) -> Result<String, String> {
         return Err(String::from_utf8_lossy(&output.stderr).into_owned());
     }
     String::from_utf8(output.stdout).map_err(|error| format!("cargo metadata: {error}"))
+}
+
+/// Where cargo puts what it builds.
+fn target_folder(root: &Path) -> Result<PathBuf, String> {
+    let metadata: Value = serde_json::from_str(&cargo_metadata(root)?)
+        .map_err(|error| format!("cargo metadata: {error}"))?;
+    let folder = metadata["target_directory"]
+        .as_str()
+        .ok_or("cargo metadata: no target directory")?;
+    Ok(PathBuf::from(folder))
 }

@@ -7,8 +7,7 @@ mod instructions;
 mod measured;
 mod repair;
 
-use crate::{Outcome, execute};
-use serde_json::Value;
+use crate::{Outcome, execute, target_folder};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -26,16 +25,6 @@ pub fn run(root: &Path, arguments: &[&str]) -> Outcome {
                 .into(),
         ),
     }
-}
-
-/// Where cargo puts what it builds.
-fn target_folder(root: &Path) -> Result<PathBuf, String> {
-    let metadata: Value = serde_json::from_str(&crate::cargo_metadata(root)?)
-        .map_err(|error| format!("cargo metadata: {error}"))?;
-    let folder = metadata["target_directory"]
-        .as_str()
-        .ok_or("cargo metadata: no target directory")?;
-    Ok(PathBuf::from(folder))
 }
 
 /// The python that runs other programs' drivers: that of PELLICLE_PYTHON, else `python3`.

@@ -30,7 +30,7 @@ pub enum Kind {
 }
 
 /// The names that may stand beside the crates; dot-files may too.
-const TOP_LEVEL: [&str; 11] = [
+const TOP_LEVEL: [&str; 12] = [
     "CHANGELOG.md",
     "CONTRIBUTING.md",
     "Cargo.lock",
@@ -39,13 +39,19 @@ const TOP_LEVEL: [&str; 11] = [
     "README.md",
     "crates",
     "docs",
+    "examples",
     "fixtures",
     "target",
     "xtask",
 ];
 
 /// Crates and files that are programs: they may print.
-const PROGRAMS: [&str; 3] = ["crates/cli/", "crates/figures/src/main.rs", "xtask/"];
+const PROGRAMS: [&str; 4] = [
+    "crates/cli/",
+    "crates/figures/src/main.rs",
+    "examples/",
+    "xtask/",
+];
 
 /// What a path is, by where it stands.
 pub fn kind(name: &str) -> Kind {
@@ -69,7 +75,7 @@ pub fn texts(root: &Path) -> Result<Vec<TextFile>, String> {
     let mut names = Vec::new();
     walk(root, "", &mut names)?;
     names.retain(|name| {
-        name != "Cargo.lock" && !name.starts_with("fixtures/") || name.ends_with(".md")
+        !name.ends_with("Cargo.lock") && !name.starts_with("fixtures/") || name.ends_with(".md")
     });
     let mut texts = Vec::new();
     for name in names {
@@ -149,6 +155,7 @@ mod tests {
             ("crates/mesh/src/lib.rs", library),
             ("crates/cli/src/main.rs", program),
             ("xtask/src/main.rs", program),
+            ("examples/downstream/src/main.rs", program),
             ("crates/figures/src/main.rs", program),
             ("crates/figures/src/lib.rs", library),
             ("crates/mesh/src/soup/tests.rs", Kind::TestSource),

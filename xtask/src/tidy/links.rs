@@ -3,7 +3,7 @@
 use super::Finding;
 
 /// The folders at the top that a path in backticks may begin with.
-const TOP: [&str; 4] = ["crates/", "docs/", "fixtures/", "xtask/"];
+const TOP: [&str; 5] = ["crates/", "docs/", "examples/", "fixtures/", "xtask/"];
 
 /// Each link or path that leads nowhere; `exists` takes a path relative to the workspace.
 pub fn check(file: &str, text: &str, exists: impl Fn(&str) -> bool) -> Vec<Finding> {
