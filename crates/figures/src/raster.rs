@@ -10,10 +10,10 @@ use resvg::{tiny_skia, usvg};
 use std::sync::{Arc, LazyLock};
 
 /// Pixels in a row of a picture, at most.
-const WIDEST: f32 = 1600.0;
+const WIDEST: f32 = 1280.0;
 
 /// Pixels to a unit of the sheet, at most.
-const FINEST: f32 = 2.0;
+const FINEST: f32 = 1.6;
 
 /// The same fonts on every machine.
 static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
@@ -31,7 +31,7 @@ static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
-/// Draws an SVG document: two pixels a unit, or fewer if the picture were wider than 1600 pixels.
+/// Draws an SVG document: 1.6 pixels a unit, or fewer if the picture were wider than 1280 pixels.
 pub fn png(svg: &str) -> Result<Vec<u8>, Error> {
     let options = usvg::Options {
         fontdb: Arc::clone(&FONTS),
