@@ -49,13 +49,14 @@
 //! an interval that holds all weights (static):
 //! rounding is monotone, so no computed difference exceeds the computed extent.
 
+pub(crate) mod magnitudes;
 mod plane;
 
 pub use plane::StaticFilter2;
 
 use crate::{
     Sign, determinant,
-    lanes::{self, FourVerdicts, InSphereBounds, Registers},
+    lanes::{self, FourSides, FourVerdicts, InSphereBounds, Registers},
     lifted,
     statistics::{Predicate, Stage, decided},
 };
@@ -191,9 +192,14 @@ pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Opti
         (c - e).to_array(),
         (d - e).to_array(),
     ];
-    semi_static(&v, insphere_bound, || {
-        determinant::insphere(&v[0], &v[1], &v[2], &v[3])
-    })
+    match spreads(&v) {
+        Ok(spreads) => {
+            let value = determinant::insphere(&v[0], &v[1], &v[2], &v[3]);
+            certain(value, insphere_bound(spreads)).or_else(|| magnitudes::insphere(&v, value))
+        }
+        Err(Unfit::Flat) => Some(Sign::Zero),
+        Err(Unfit::OutOfRange) => None,
+    }
 }
 
 /// The weights minus the last one.
@@ -502,6 +508,21 @@ impl StaticFilter {
             most: HUGE,
         };
         lanes::insphere_across(registers, corners, opposite, p, asked, bounds)
+    }
+
+    /// On which side of the four facets of the positive tetrahedron `corners` the point `p` lies, as far as the filter can
+    /// say: four tests at once. On a lattice (see [`with_unit`](Self::with_unit)) it can say it of all.
+    #[inline(always)]
+    pub fn sides_of_facets<R: Registers>(
+        &self,
+        registers: R,
+        corners: [DVec3; 4],
+        p: DVec3,
+    ) -> FourSides {
+        self.check(&corners);
+        self.check(&[p]);
+        let (bound, half_unit) = (self.orient3d, self.half_unit_of_orient3d);
+        lanes::sides_of_facets(registers, corners, p, bound, half_unit)
     }
 
     /// [`lifted::insphere_of_cospherical`] for points inside the box, which are known to be cospherical.

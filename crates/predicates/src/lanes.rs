@@ -288,18 +288,81 @@ pub struct FourVerdicts {
     pub outside: u8,
 }
 
+/// What the static filter says of a point and the four facets of a tetrahedron: bit i stands for the facet opposite
+/// corner i.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct FourSides {
+    /// The facets that surely have the point and their corner on different sides.
+    pub beyond: u8,
+    /// Those that surely do not.
+    pub within: u8,
+}
+
+/// On which side of each facet of the positive tetrahedron `corners` the point `p` lies. `half_unit` is half the least
+/// determinant that is not zero, as in [`InSphereBounds`].
+#[inline(always)]
+pub(crate) fn sides_of_facets<R: Registers>(
+    registers: R,
+    corners: [DVec3; 4],
+    p: DVec3,
+    bound: f64,
+    half_unit: f64,
+) -> FourSides {
+    let corners = differences(registers, corners, p);
+    let [first, second, third] = facets(corners);
+    let value = determinant::orient3d(&first, &second, &third).four;
+    let negated = registers.sub(splat(registers, 0.0), value);
+    let bound_of_box = splat(registers, bound);
+    let beyond = registers.greater(value, bound_of_box);
+    FourSides {
+        beyond,
+        within: if bound < half_unit {
+            !beyond & 0b1111
+        } else {
+            registers.greater(negated, bound_of_box)
+        },
+    }
+}
+
+/// The corners of a tetrahedron as first, second and third corners of its facets, lane i for the facet opposite corner i:
+/// seen from beyond the facet they turn counter-clockwise, so with a point beyond they are positive.
+///
+/// ```text
+/// lane        0    1    2    3
+/// first       3    2    3    1
+/// second      1    0    0    0
+/// third       2    3    1    2
+/// ```
+#[inline(always)]
+fn facets<R: Registers>([x, y, z]: [Lanes<R>; 3]) -> [[Lanes<R>; 3]; 3] {
+    [
+        [
+            x.permuted::<FIRST>(),
+            y.permuted::<FIRST>(),
+            z.permuted::<FIRST>(),
+        ],
+        [
+            x.permuted::<SECOND>(),
+            y.permuted::<SECOND>(),
+            z.permuted::<SECOND>(),
+        ],
+        [
+            x.permuted::<THIRD>(),
+            y.permuted::<THIRD>(),
+            z.permuted::<THIRD>(),
+        ],
+    ]
+}
+
+const FIRST: i32 = lanes([3, 2, 3, 1]);
+const SECOND: i32 = lanes([1, 0, 0, 0]);
+const THIRD: i32 = lanes([2, 3, 1, 2]);
+
 /// For each corner of the positive tetrahedron `corners` that `asked` names: whether `p` is inside the sphere of
 /// the neighbour opposite that corner, whose fourth vertex is `opposite`. The static filter, and where that is
 /// not enough, the semi-static one; on a lattice ties too, by the perturbation of [`lifted`](crate::lifted).
 ///
-/// The neighbour opposite corner i has the other three corners, turned around, and opposite vertex i:
-///
-/// ```text
-/// lane        0    1    2    3
-/// first       3    2    3    1       (first, second, third, opposite) is positive
-/// second      1    0    0    0
-/// third       2    3    1    2
-/// ```
+/// The neighbour opposite corner i has the other three corners, turned around, and opposite vertex i (see [`facets`]).
 #[inline(always)]
 pub(crate) fn insphere_across<R: Registers>(
     registers: R,
@@ -309,26 +372,9 @@ pub(crate) fn insphere_across<R: Registers>(
     asked: u8,
     bounds: InSphereBounds,
 ) -> FourVerdicts {
-    const FIRST: i32 = lanes([3, 2, 3, 1]);
-    const SECOND: i32 = lanes([1, 0, 0, 0]);
-    const THIRD: i32 = lanes([2, 3, 1, 2]);
-    let [x, y, z] = differences(registers, corners, p);
-    let lift = determinant::lift(&[x, y, z]);
-    let first = [
-        x.permuted::<FIRST>(),
-        y.permuted::<FIRST>(),
-        z.permuted::<FIRST>(),
-    ];
-    let second = [
-        x.permuted::<SECOND>(),
-        y.permuted::<SECOND>(),
-        z.permuted::<SECOND>(),
-    ];
-    let third = [
-        x.permuted::<THIRD>(),
-        y.permuted::<THIRD>(),
-        z.permuted::<THIRD>(),
-    ];
+    let corners = differences(registers, corners, p);
+    let lift = determinant::lift(&corners);
+    let [first, second, third] = facets(corners);
     let opposite = differences(registers, opposite, p);
     let coefficients = determinant::insphere_coefficients(&first, &second, &third, &opposite);
     let lifts = [

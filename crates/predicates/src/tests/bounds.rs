@@ -77,6 +77,9 @@ fn the_bounds_are_those_of_the_formulas() {
             determinant::insphere(p, p, p, p),
             filter::insphere_bound(extents),
         );
+        let value = determinant::insphere(p, p, p, p);
+        let bound = filter::magnitudes::insphere_bound(value.monomials);
+        check(value, bound);
         for weight in [0.0, 1e-30, 0.2, 1e12, 1e80] {
             let weights = [0; 4].map(|_| Rounded::difference(weight));
             check(

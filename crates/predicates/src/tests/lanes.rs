@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     Sign, StaticFilter, insphere,
-    lanes::{FourVerdicts, Plain, Registers, Vectorized, vectorized},
+    lanes::{FourSides, FourVerdicts, Plain, Registers, Vectorized, vectorized},
     lifted, orient3d,
 };
 use glam::DVec3;
@@ -36,6 +36,22 @@ impl Vectorized for Across {
             asked,
         } = self;
         filter.insphere_across(registers, corners, opposite, p, asked)
+    }
+}
+
+struct Sides {
+    filter: StaticFilter,
+    corners: [DVec3; 4],
+    p: DVec3,
+}
+
+impl Vectorized for Sides {
+    type Output = FourSides;
+
+    #[inline(always)]
+    fn run<R: Registers>(self, registers: R) -> FourSides {
+        let Self { filter, corners, p } = self;
+        filter.sides_of_facets(registers, corners, p)
     }
 }
 
@@ -101,6 +117,26 @@ proptest! {
     }
 
     #[test]
+    fn four_sides_are_right_and_the_same_on_all_registers(five in points(), on_lattice in any::<bool>()) {
+        let [a, b, c, d, e] = space(&five);
+        let corners = [a, b, c, d];
+        let filter = match on_lattice {
+            true => filter(&[a, b, c, d, e]),
+            false => filter(&[a, b, c, d, e]).with_unit(0.0),
+        };
+        let across = || Sides { filter, corners, p: e };
+        let sides = vectorized(across());
+        prop_assert_eq!(sides, across().run(Plain));
+        for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
+            let [x, y, z] = neighbor.map(|corner| corners[corner]);
+            let is_beyond = orient3d(x, y, z, e) == Sign::Positive;
+            let bit = |set: u8| set >> i & 1 == 1;
+            prop_assert!(!bit(sides.beyond) || is_beyond);
+            prop_assert!(!bit(sides.within) || !is_beyond);
+        }
+    }
+
+    #[test]
     fn a_filter_that_knows_the_lattice_is_exact(five in points()) {
         let [a, b, c, d, e] = space(&five);
         let filter = filter(&[a, b, c, d, e]);
@@ -148,6 +184,27 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn sides_of_the_facets_of_a_corner() {
+    let corners = [DVec3::ZERO, DVec3::X, DVec3::Y, DVec3::Z];
+    let (min, max) = (DVec3::splat(-2.0), DVec3::splat(2.0));
+    let sides = |p: [f64; 3], unit: f64| {
+        let filter = StaticFilter::from_bounds(min, max).with_unit(unit);
+        let p = DVec3::from_array(p);
+        let sides = vectorized(Sides { filter, corners, p });
+        (sides.beyond, sides.within)
+    };
+    for unit in [0.0, 0.0625] {
+        assert_eq!(sides([0.125; 3], unit), (0, 0b1111));
+        assert_eq!(sides([1.0; 3], unit), (0b0001, 0b1110));
+        assert_eq!(sides([-1.0, 0.5, 0.25], unit), (0b0010, 0b1101));
+        assert_eq!(sides([0.5, -1.0, -0.5], unit), (0b1100, 0b0011));
+    }
+    // In the plane of a facet the point is not beyond it, which is certain on a lattice only.
+    assert_eq!(sides([0.25, 0.25, 0.0], 0.0), (0, 0b0111));
+    assert_eq!(sides([0.25, 0.25, 0.0], 0.0625), (0, 0b1111));
 }
 
 #[test]
