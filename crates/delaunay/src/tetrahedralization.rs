@@ -2,6 +2,8 @@
 
 use crate::{FacetId, TetId, id::facet_vertices};
 use pellicle_geometry::{DVec3, VertexId};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// The Delaunay tetrahedralisation of a slice of points: made by [`tetrahedralize`](crate::tetrahedralize).
 ///
@@ -36,12 +38,7 @@ impl<'a> Tetrahedralization<'a> {
         finite: usize,
         duplicates: Vec<(VertexId, VertexId)>,
     ) -> Self {
-        let mut incident = vec![TetId::NONE; points.len()];
-        for (t, tet) in tets[..finite].iter().enumerate() {
-            for vertex in tet {
-                incident[vertex.index()] = TetId::new(t);
-            }
-        }
+        let mut incident = last_incident(points.len(), &tets[..finite]);
         for &(duplicate, representative) in &duplicates {
             incident[duplicate.index()] = incident[representative.index()];
         }
@@ -152,4 +149,28 @@ impl<'a> Tetrahedralization<'a> {
     pub fn vertex_count(&self) -> usize {
         self.points.len() - self.duplicates.len()
     }
+}
+
+/// By vertex the last of these tetrahedra that it is a corner of, or none.
+fn last_incident(vertices: usize, tets: &[[VertexId; 4]]) -> Vec<TetId> {
+    const CHUNK: usize = 1 << 15;
+    // One more than the tetrahedron's number.
+    let vertices = (0..vertices).into_par_iter();
+    let last: Vec<AtomicU32> = vertices.map(|_| AtomicU32::new(0)).collect();
+    let chunks = tets.par_chunks(CHUNK).enumerate();
+    chunks.for_each(|(chunk, tets)| {
+        let before = chunk * CHUNK;
+        // From the last one down, so that most of the time there is nothing to write.
+        for (k, tet) in tets.iter().enumerate().rev() {
+            let number = (before + k) as u32 + 1;
+            for vertex in tet {
+                let last = &last[vertex.index()];
+                if last.load(Relaxed) < number {
+                    last.fetch_max(number, Relaxed);
+                }
+            }
+        }
+    });
+    let tet = |number: AtomicU32| TetId(number.into_inner().wrapping_sub(1));
+    last.into_iter().map(tet).collect()
 }

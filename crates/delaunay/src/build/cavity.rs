@@ -6,22 +6,29 @@ use super::{
     kernel::Kernel,
     worker::Worker,
 };
-use crate::{FacetId, TetId, id::FACET_CORNERS};
+use crate::{FacetId, TetId};
 use pellicle_geometry::VertexId;
 use pellicle_predicates::lanes::Registers;
+use std::hint::select_unpredictable;
 
 /// Up to this many vertices on a cavity's boundary, edges are paired through a table with a row and a
 /// column a vertex.
-const MOST_TABLED_VERTICES: usize = 256;
+const MOST_TABLED_VERTICES: usize = UNRANKED as usize;
 
 /// Entries between the rows of the table: a little more than a row, so that rows do not share the same
 /// places of the cache.
-const ROW: usize = MOST_TABLED_VERTICES + 16;
+const ROW: usize = 272;
+
+/// The same for up to as many vertices: rows that are close to each other.
+const SHORT_ROW: usize = 64;
+
+/// Entries of the table, for any two bytes as row and column.
+const ENTRIES: usize = (u8::MAX as usize + 1) * ROW;
 
 /// A facet between the conflict region and the rest.
 #[derive(Clone, Copy)]
 struct BoundaryFacet {
-    /// Clockwise seen from the cavity, so that (new vertex, corners) is positive.
+    /// Clockwise seen from the cavity, so that (new vertex, corners) is positive. The vertex at infinity comes last.
     corners: [VertexId; 3],
     /// The facet seen from outside the cavity.
     outer: FacetId,
@@ -44,9 +51,9 @@ pub(super) struct Cavity {
     boundary_count: usize,
     ranking: Ranking,
     /// By boundary facet, its corners' ranks.
-    ranks: Vec<[u8; 4]>,
+    ranks: Vec<[u8; 3]>,
     /// The facet of the filling at the edge from one vertex (row) to another (column).
-    edges: Box<[FacetId; MOST_TABLED_VERTICES * ROW]>,
+    edges: Box<[FacetId; ENTRIES]>,
 }
 
 impl Cavity {
@@ -58,7 +65,7 @@ impl Cavity {
             boundary_count: 0,
             ranking: Ranking::for_vertices(vertices),
             ranks: Vec::new(),
-            edges: vec![FacetId::NONE; MOST_TABLED_VERTICES * ROW]
+            edges: vec![FacetId::NONE; ENTRIES]
                 .try_into()
                 .expect("the vector has the length of the array"),
         }
@@ -67,7 +74,7 @@ impl Cavity {
     /// Makes room for vertices up to this number.
     pub(super) fn make_room_for_vertices(&mut self, vertices: usize) {
         let rank = &mut self.ranking.rank;
-        rank.resize(vertices.max(rank.len()), 0);
+        rank.resize(vertices.max(rank.len()), UNRANKED);
     }
 
     /// Forgets the last conflict region.
@@ -82,35 +89,8 @@ impl Cavity {
     }
 
     fn push_conflict(&mut self, tet: TetId) {
-        self.make_room();
-        self.conflict[self.conflict_count] = tet;
+        self.room().conflict[0] = tet;
         self.conflict_count += 1;
-    }
-
-    /// The neighbour opposite corner `I` of a tetrahedron in conflict: to the conflict region, or the facet there to the
-    /// boundary, as bit `I` of `inside` and `outside` say. (A closure in its place would not surely be inlined.)
-    #[inline(always)]
-    fn sort_in<const I: usize>(
-        &mut self,
-        cells: &Cells,
-        corners: [VertexId; 4],
-        twins: [FacetId; 4],
-        marks: [u8; 4],
-        inside: u8,
-        outside: u8,
-    ) {
-        let [a, b, c] = FACET_CORNERS[I];
-        self.boundary[self.boundary_count] = BoundaryFacet {
-            corners: [corners[b], corners[a], corners[c]],
-            outer: twins[I],
-        };
-        self.boundary_count += usize::from(outside >> I & 1);
-        let neighbor = twins[I].tet();
-        let is_inside = inside >> I & 1 == 1;
-        cells.set_mark(neighbor, if is_inside { IN_CONFLICT } else { marks[I] });
-        cells.prefetch_twins(neighbor);
-        self.conflict[self.conflict_count] = neighbor;
-        self.conflict_count += usize::from(is_inside);
     }
 
     /// How many tetrahedra the filling has more than the conflict region.
@@ -121,11 +101,19 @@ impl Cavity {
 
     /// Room for four more of each kind.
     #[inline(always)]
-    fn make_room(&mut self) {
+    fn room(&mut self) -> Found<'_> {
         if self.conflict_count + 4 > self.conflict.len()
             || self.boundary_count + 4 > self.boundary.len()
         {
             self.make_more_room();
+        }
+        let conflict = self.conflict[self.conflict_count..].first_chunk_mut();
+        let boundary = self.boundary[self.boundary_count..].first_chunk_mut();
+        Found {
+            conflict: conflict.expect("room was made"),
+            conflict_count: 0,
+            boundary: boundary.expect("room was made"),
+            boundary_count: 0,
         }
     }
 
@@ -138,6 +126,41 @@ impl Cavity {
     }
 }
 
+/// Places for what is found on the four sides of a tetrahedron in conflict.
+struct Found<'a> {
+    conflict: &'a mut [TetId; 4],
+    conflict_count: usize,
+    boundary: &'a mut [BoundaryFacet; 4],
+    boundary_count: usize,
+}
+
+impl Found<'_> {
+    /// The neighbour opposite corner `I` of a tetrahedron in conflict: to the conflict region if bit `I` of `inside` says so and
+    /// it is not there yet, or the facet there to the boundary. (A closure in its place would not surely be inlined.)
+    #[inline(always)]
+    fn sort_in<const I: usize>(
+        &mut self,
+        cells: &Cells,
+        corners: [VertexId; 4],
+        twins: [FacetId; 4],
+        inside: u8,
+    ) {
+        let is_inside = inside >> I & 1;
+        self.boundary[self.boundary_count & 3] = BoundaryFacet {
+            corners: facet_least_last::<I>(corners),
+            outer: twins[I],
+        };
+        self.boundary_count += usize::from(is_inside ^ 1);
+        let neighbor = twins[I].tet();
+        // One of 0 and 1, at rest and in conflict: those that are joined to others have no other mark.
+        let mark = cells.mark(neighbor);
+        cells.set_mark(neighbor, mark | (IN_CONFLICT * is_inside));
+        cells.prefetch_twins(neighbor);
+        self.conflict[self.conflict_count & 3] = neighbor;
+        self.conflict_count += usize::from(is_inside & !mark);
+    }
+}
+
 impl Worker {
     /// Finds all tetrahedra in conflict with a point, breadth first from `start`, and the facets around them;
     /// marks them. The conflict region is connected and star-shaped around it: the signs are exact.
@@ -145,7 +168,8 @@ impl Worker {
     /// False when another worker holds one of the tetrahedra to be looked at; then what is marked must be released.
     ///
     /// Whether a neighbour is in conflict is as good as random, so the inner loop has no branch on it: it
-    /// writes what may be needed, and counts what is.
+    /// writes what may be needed, and counts what is. It does not ask which ones were tested before either: all four at once
+    /// take no longer.
     #[inline(always)]
     pub(super) fn dig<const SHARED: bool, R: Registers>(
         &mut self,
@@ -166,6 +190,7 @@ impl Worker {
             if next + 1 < cavity.conflict_count {
                 let twins = cells.twins(cavity.conflict[next + 1]);
                 four(|i| cells.prefetch_corners(twins[i].tet()));
+                four(|i| cells.prefetch_mark(twins[i].tet()));
             }
             let corners = cells.corners(tet);
             let twins = cells.twins(tet);
@@ -178,19 +203,15 @@ impl Worker {
                     return false;
                 }
             }
-            let marks = four(|i| cells.mark(twins[i].tet()));
-            let [a, b, c, d] = four(|i| u8::from(marks[i] != IN_CONFLICT) << i);
-            let untested = a | b | c | d;
-            if untested == 0 {
-                continue;
-            }
-            let inside = kernel.are_in_conflict(registers, corners, twins, untested, query);
-            let outside = untested & !inside;
-            cavity.make_room();
-            cavity.sort_in::<0>(cells, corners, twins, marks, inside, outside);
-            cavity.sort_in::<1>(cells, corners, twins, marks, inside, outside);
-            cavity.sort_in::<2>(cells, corners, twins, marks, inside, outside);
-            cavity.sort_in::<3>(cells, corners, twins, marks, inside, outside);
+            let inside = kernel.are_in_conflict(registers, corners, twins, query);
+            let mut found = cavity.room();
+            found.sort_in::<0>(cells, corners, twins, inside);
+            found.sort_in::<1>(cells, corners, twins, inside);
+            found.sort_in::<2>(cells, corners, twins, inside);
+            found.sort_in::<3>(cells, corners, twins, inside);
+            let (conflict, boundary) = (found.conflict_count, found.boundary_count);
+            cavity.conflict_count += conflict;
+            cavity.boundary_count += boundary;
         }
         true
     }
@@ -227,17 +248,16 @@ impl Worker {
         }
         while cavity.conflict_count < cavity.boundary_count {
             let tet = self.kept.pop().expect("slots were reserved");
-            kernel.cells.set_mark(tet, IN_CONFLICT);
             cavity.push_conflict(tet);
         }
         // The boundary is a sphere with F facets and F / 2 + 2 vertices.
-        if cavity.boundary_count / 2 + 2 <= MOST_TABLED_VERTICES {
-            cavity.join_through_table(kernel, vertex);
+        let vertices = cavity.boundary_count / 2 + 2;
+        if vertices <= SHORT_ROW {
+            cavity.join_through_table::<SHORT_ROW>(kernel, vertex);
+        } else if vertices <= MOST_TABLED_VERTICES {
+            cavity.join_through_table::<ROW>(kernel, vertex);
         } else {
             cavity.join_through_sorting(kernel, vertex);
-        }
-        for &tet in cavity.conflict() {
-            kernel.cells.set_mark(tet, AT_REST);
         }
         self.recent = cavity.conflict[0];
     }
@@ -254,30 +274,30 @@ impl Cavity {
     ///      b ——→ c      facet 3 (opposite c): a → b
     /// ```
     #[inline(always)]
-    fn join_through_table(&mut self, kernel: &Kernel, vertex: VertexId) {
-        self.ranking.clear();
+    fn join_through_table<const STRIDE: usize>(&mut self, kernel: &Kernel, vertex: VertexId) {
         let count = self.boundary_count;
         if self.ranks.len() < count {
-            self.ranks.resize(self.boundary.len(), [0; 4]);
+            self.ranks.resize(self.boundary.len(), [0; 3]);
         }
         let edges = &mut *self.edges;
-        let edge = |from: u8, to: u8| usize::from(from) * ROW + usize::from(to);
-        let boundary = &mut self.boundary[..count];
+        let edge = |from: u8, to: u8| usize::from(from) * STRIDE + usize::from(to);
+        let boundary = &self.boundary[..count];
         let filling = &self.conflict[..count];
         let ranks = &mut self.ranks[..count];
-        for ((facet, &tet), ranks) in boundary.iter_mut().zip(filling).zip(&mut *ranks) {
-            facet.corners = least_last(facet.corners);
+        let mut ranking = self.ranking.start();
+        for ((facet, &tet), ranks) in boundary.iter().zip(filling).zip(&mut *ranks) {
             let [a, b, c] = facet.corners;
-            let a = self.ranking.rank_of(a);
-            let b = self.ranking.rank_of(b);
-            let c = self.ranking.rank_of(c);
-            *ranks = [a, b, c, 0];
+            let a = ranking.rank_of(a);
+            let b = ranking.rank_of(b);
+            let c = ranking.rank_of(c);
+            *ranks = [a, b, c];
             edges[edge(b, c)] = FacetId::of(tet, 1);
             edges[edge(c, a)] = FacetId::of(tet, 2);
             edges[edge(a, b)] = FacetId::of(tet, 3);
         }
-        debug_assert_eq!(self.ranking.count, count / 2 + 2);
-        for ((facet, &tet), &[a, b, c, _]) in boundary.iter().zip(filling).zip(&*ranks) {
+        debug_assert_eq!(usize::from(ranking.count), count / 2 + 2);
+        ranking.forget();
+        for ((facet, &tet), &[a, b, c]) in boundary.iter().zip(filling).zip(&*ranks) {
             let [x, y, z] = facet.corners;
             kernel.cells.set(
                 tet,
@@ -288,7 +308,7 @@ impl Cavity {
                     edges[edge(a, c)],
                     edges[edge(b, a)],
                 ],
-                IN_CONFLICT,
+                AT_REST,
             );
             kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
         }
@@ -300,10 +320,10 @@ impl Cavity {
         let boundary = &self.boundary[..self.boundary_count];
         let mut edges = Vec::with_capacity(3 * boundary.len());
         for (facet, &tet) in boundary.iter().zip(&self.conflict) {
-            let [a, b, c] = least_last(facet.corners);
+            let [a, b, c] = facet.corners;
             kernel
                 .cells
-                .set(tet, [vertex, a, b, c], [facet.outer; 4], IN_CONFLICT);
+                .set(tet, [vertex, a, b, c], [facet.outer; 4], AT_REST);
             kernel.cells.set_twin(facet.outer, FacetId::of(tet, 0));
             for (from, to, corner) in [(b, c, 1), (c, a, 2), (a, b, 3)] {
                 edges.push((from.min(to), from.max(to), FacetId::of(tet, corner)));
@@ -319,57 +339,78 @@ impl Cavity {
     }
 }
 
+/// In place of a rank.
+const UNRANKED: u8 = u8::MAX;
+
 /// Numbers the vertices of a cavity's boundary from 0.
 struct Ranking {
-    /// By vertex: its rank, if `vertices` agrees.
+    /// By vertex: its rank.
     rank: Vec<u8>,
     /// By rank.
-    vertices: Box<[VertexId; MOST_TABLED_VERTICES]>,
-    count: usize,
+    vertices: Box<[VertexId; UNRANKED as usize + 1]>,
 }
 
 impl Ranking {
     fn for_vertices(vertices: usize) -> Self {
         Self {
-            rank: vec![0; vertices],
-            vertices: Box::new([VertexId::NONE; MOST_TABLED_VERTICES]),
-            count: 0,
+            rank: vec![UNRANKED; vertices],
+            vertices: Box::new([VertexId::NONE; UNRANKED as usize + 1]),
         }
     }
 
     #[inline(always)]
-    fn clear(&mut self) {
-        self.count = 0;
+    fn start(&mut self) -> Numbering<'_> {
+        Numbering {
+            rank: &mut self.rank,
+            vertices: &mut self.vertices,
+            count: 0,
+        }
     }
+}
 
+/// A cavity's vertices being numbered.
+struct Numbering<'a> {
+    rank: &'a mut [u8],
+    vertices: &'a mut [VertexId; UNRANKED as usize + 1],
+    count: u8,
+}
+
+impl Numbering<'_> {
     /// Without a branch: which vertices are new is as good as random.
     #[inline(always)]
     fn rank_of(&mut self, vertex: VertexId) -> u8 {
         let slot = &mut self.rank[vertex.index()];
-        let rank = *slot;
-        let is_known =
-            (self.vertices[usize::from(rank)] == vertex) & (usize::from(rank) < self.count);
-        let rank = if is_known { rank } else { self.count as u8 };
+        let is_new = *slot == UNRANKED;
+        let rank = select_unpredictable(is_new, self.count, *slot);
         *slot = rank;
-        self.vertices[usize::from(rank)] = vertex;
-        self.count += usize::from(!is_known);
+        self.vertices[usize::from(self.count)] = vertex;
+        self.count += u8::from(is_new);
         rank
+    }
+
+    /// Leaves no vertex with a rank.
+    #[inline(always)]
+    fn forget(self) {
+        for vertex in &self.vertices[..usize::from(self.count)] {
+            self.rank[vertex.index()] = UNRANKED;
+        }
     }
 }
 
-/// Turns a triangle so that its least vertex, that at infinity if it is there, comes last.
+/// The facet opposite corner `I`, clockwise seen from there.
+///
+/// Of a tetrahedron with the vertex inserted last as its first corner and the least one, perhaps that at infinity, as its last
+/// one, the facet has its least vertex last too.
 #[inline(always)]
-fn least_last([a, b, c]: [VertexId; 3]) -> [VertexId; 3] {
-    let is_a = (a < b) & (a < c);
-    let is_b = (b < a) & (b < c);
-    let pick = |if_a, if_b, otherwise| {
-        if is_a {
-            if_a
-        } else if is_b {
-            if_b
-        } else {
-            otherwise
+fn facet_least_last<const I: usize>([a, b, c, d]: [VertexId; 4]) -> [VertexId; 3] {
+    match I {
+        0 => [b, c, d],
+        1 => [c, a, d],
+        2 => [a, b, d],
+        _ => {
+            let is_b = b < c;
+            let pick = |if_b, otherwise| select_unpredictable(is_b, if_b, otherwise);
+            [pick(a, b), pick(c, a), pick(b, c)]
         }
-    };
-    [pick(b, c, a), pick(c, a, b), pick(a, b, c)]
+    }
 }

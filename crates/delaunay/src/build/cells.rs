@@ -3,19 +3,15 @@
 //! Every word is an atomic that is read and written without ordering, which costs what a plain word costs;
 //! the order between threads comes from the [`blocks`](super::blocks) that they hold.
 
+use super::spreading::Spreading;
 use crate::{FacetId, TetId};
 use pellicle_geometry::VertexId;
 use prefetch_index::prefetch_index;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
-
-/// The first corner's word holds the vertex in these bits and the mark in the others, so that a look at a
-/// tetrahedron fetches both.
-const MARK_SHIFT: u32 = 28;
-const VERTEX_BITS: u32 = (1 << MARK_SHIFT) - 1;
+use std::sync::atomic::{AtomicU8, AtomicU32, Ordering::Relaxed};
 
 /// How many vertices there may be.
-pub(crate) const MOST_VERTICES: usize = 1 << MARK_SHIFT;
+pub(crate) const MOST_VERTICES: usize = 1 << 28;
 
 /// The mark of a tetrahedron that is in no conflict region.
 pub(super) const AT_REST: u8 = 0;
@@ -29,10 +25,16 @@ pub(super) const KEPT: u8 = 14;
 /// Fewer slots than these are one thread's work.
 const LEAST_SHARED: usize = 1 << 14;
 
+/// So many marks, or more, are kept in memory of their own: allocators commonly give a vector of this capacity back to the
+/// system as soon as it is dropped, and so the end of the work does not need more memory than its middle.
+const MANY: usize = 1 << 18;
+const OWN_MEMORY: usize = (1 << 25) + 1;
+
 #[derive(Default)]
 pub(super) struct Cells {
-    /// Four corners each, the first with the mark; positively oriented; an infinite one as if its vertex at infinity, corner 3, were
-    /// any point beyond its hull facet.
+    /// By slot. A mark is not part of the corners, so that whoever reads these need not wait for a mark just written.
+    marks: Vec<AtomicU8>,
+    /// Four corners each, positively oriented; an infinite one as if its vertex at infinity, corner 3, were any point beyond its hull facet.
     corners: Vec<[AtomicU32; 4]>,
     /// By tetrahedron and corner: the facet opposite the corner, seen from the other side.
     twins: Vec<[AtomicU32; 4]>,
@@ -42,6 +44,10 @@ impl Cells {
     /// No slot yet, and memory reserved (but not touched) for `expected`.
     pub(super) fn with_capacity(expected: usize) -> Self {
         Self {
+            marks: Vec::with_capacity(match expected {
+                0..MANY => expected,
+                _ => expected.max(OWN_MEMORY),
+            }),
             corners: Vec::with_capacity(expected),
             twins: Vec::with_capacity(expected),
         }
@@ -53,6 +59,7 @@ impl Cells {
 
     /// Leaves no slots; the memory is kept.
     pub(super) fn clear(&mut self) {
+        self.marks.clear();
         self.corners.clear();
         self.twins.clear();
     }
@@ -61,53 +68,51 @@ impl Cells {
     /// threads do it together.
     pub(super) fn grow(&mut self, len: usize) {
         let new = self.len()..len.max(self.len());
-        let row = |first: u32| {
-            let mut row = [const { AtomicU32::new(0) }; 4];
-            *row[0].get_mut() = first;
-            row
-        };
-        let vacant = u32::from(VACANT) << MARK_SHIFT;
+        let vacant = || AtomicU8::new(VACANT);
+        let row = || [const { AtomicU32::new(0) }; 4];
         if new.len() < LEAST_SHARED {
-            self.corners.resize_with(new.end, || row(vacant));
-            self.twins.resize_with(new.end, || row(0));
+            self.marks.resize_with(new.end, vacant);
+            self.corners.resize_with(new.end, row);
+            self.twins.resize_with(new.end, row);
         } else {
-            let corners = new.clone().into_par_iter().map(|_| row(vacant));
+            let marks = new.clone().into_par_iter().map(|_| vacant());
+            self.marks.par_extend(marks);
+            let corners = new.clone().into_par_iter().map(|_| row());
             self.corners.par_extend(corners);
-            self.twins.par_extend(new.into_par_iter().map(|_| row(0)));
+            self.twins.par_extend(new.into_par_iter().map(|_| row()));
         }
     }
 
-    /// Moves the tetrahedra apart, in their order, so that they are spread evenly over `len` slots: each
-    /// then has room beside it for those that its neighbourhood will hold.
-    pub(super) fn spread(&mut self, len: usize) {
-        /// Bits behind the point of the distance between two that were neighbours.
-        const FRACTION: u32 = 24;
+    /// Moves the tetrahedra apart, in their order, such that each has room beside it for those that its neighbourhood will
+    /// hold: over `len` slots, where `growth` times as many are to be expected. See [`Spreading`].
+    pub(super) fn spread(&mut self, len: usize, growth: f64, parts: usize) {
         let old = self.len();
         if len <= old {
             return;
         }
         self.grow(len);
         let cells = &*self;
-        let step = ((len as u64) << FRACTION) / old as u64;
-        let place = |slot: u32| ((u64::from(slot) * step) >> FRACTION) as u32;
-        let spread = |slot: u32| {
-            let from = TetId(slot);
+        let places = Spreading::new(old, len, growth, parts);
+        let spread = |slot: usize| {
+            let from = TetId::new(slot);
             let mark = cells.mark(from);
             let corners = cells.corners(from);
             cells.set_mark(from, VACANT);
             if mark == AT_REST {
-                let to = TetId(place(slot));
+                let to = TetId::new(places.of(slot));
                 let twins = cells.twins(from);
-                let renamed =
-                    |twin: FacetId| FacetId::of(TetId(place(twin.tet().0)), twin.corner());
+                let renamed = |twin: FacetId| {
+                    let tet = TetId::new(places.of(twin.tet().index()));
+                    FacetId::of(tet, twin.corner())
+                };
                 cells.set(to, corners, twins.map(renamed), AT_REST);
             }
         };
         // Those that leave the slots in use do not meet each other there; then those that leave what they left.
-        let mut end = old as u32;
+        let mut end = old;
         loop {
-            let start = (u64::from(end) << FRACTION).div_ceil(step) as u32;
-            if ((end - start) as usize) < LEAST_SHARED {
+            let start = places.first_beyond(end);
+            if end - start < LEAST_SHARED {
                 break;
             }
             (start..end).into_par_iter().for_each(spread);
@@ -127,14 +132,13 @@ impl Cells {
     pub(super) fn corners(&self, tet: TetId) -> [VertexId; 4] {
         let corners = &self.corners[tet.index()];
         let vertex = |i: usize| corners[i].load(Relaxed);
-        [vertex(0) & VERTEX_BITS, vertex(1), vertex(2), vertex(3)].map(VertexId)
+        four(|i| VertexId(vertex(i)))
     }
 
     /// The vertex opposite a facet.
     #[inline(always)]
     pub(super) fn opposite(&self, facet: FacetId) -> VertexId {
-        let word = self.corners[facet.tet().index()][facet.corner()].load(Relaxed);
-        VertexId(word & VERTEX_BITS)
+        VertexId(self.corners[facet.tet().index()][facet.corner()].load(Relaxed))
     }
 
     #[inline(always)]
@@ -151,18 +155,22 @@ impl Cells {
     #[inline(always)]
     pub(super) fn set(&self, tet: TetId, corners: [VertexId; 4], twins: [FacetId; 4], mark: u8) {
         let slots = &self.corners[tet.index()];
-        slots[0].store(word(corners[0], mark), Relaxed);
-        slots[1].store(corners[1].0, Relaxed);
-        slots[2].store(corners[2].0, Relaxed);
-        slots[3].store(corners[3].0, Relaxed);
+        four(|i| slots[i].store(corners[i].0, Relaxed));
         let slots = &self.twins[tet.index()];
         four(|i| slots[i].store(twins[i].0, Relaxed));
+        self.set_mark(tet, mark);
     }
 
-    /// Says that the corners of a tetrahedron, and its mark, will be wanted soon.
+    /// Says that the corners of a tetrahedron will be wanted soon.
     #[inline(always)]
     pub(super) fn prefetch_corners(&self, tet: TetId) {
         prefetch_index(&self.corners, tet.index());
+    }
+
+    /// Says that the mark of a tetrahedron will be wanted soon.
+    #[inline(always)]
+    pub(super) fn prefetch_mark(&self, tet: TetId) {
+        prefetch_index(&self.marks, tet.index());
     }
 
     /// Says that the twins of a tetrahedron will be wanted soon.
@@ -178,37 +186,36 @@ impl Cells {
 
     #[inline(always)]
     pub(super) fn mark(&self, tet: TetId) -> u8 {
-        (self.corners[tet.index()][0].load(Relaxed) >> MARK_SHIFT) as u8
+        self.marks[tet.index()].load(Relaxed)
     }
 
     #[inline(always)]
     pub(super) fn set_mark(&self, tet: TetId, mark: u8) {
-        let first = &self.corners[tet.index()][0];
-        let vertex = VertexId(first.load(Relaxed) & VERTEX_BITS);
-        first.store(word(vertex, mark), Relaxed);
+        self.marks[tet.index()].store(mark, Relaxed);
     }
 
     /// The arrays as plain numbers, in place: corners and twins. Slots without a tetrahedron have
     /// [`VertexId::NONE`] as their first corner.
     pub(super) fn into_plain(self) -> (Vec<[VertexId; 4]>, Vec<[FacetId; 4]>) {
-        let vertices = |corners: [AtomicU32; 4]| {
-            let [mut first, second, third, fourth] = corners.map(AtomicU32::into_inner);
-            if first >> MARK_SHIFT != u32::from(AT_REST) {
-                first = VertexId::NONE.0;
+        let Self {
+            marks,
+            mut corners,
+            twins,
+        } = self;
+        let vacant = marks.par_iter().zip(&mut corners);
+        vacant.for_each(|(mark, corners)| {
+            if mark.load(Relaxed) != AT_REST {
+                *corners[0].get_mut() = VertexId::NONE.0;
             }
-            [first, second, third, fourth].map(VertexId)
-        };
+        });
+        drop(marks);
+        let vertices = |corners: [AtomicU32; 4]| corners.map(|v| VertexId(v.into_inner()));
         let facets = |twins: [AtomicU32; 4]| twins.map(|twin| FacetId(twin.into_inner()));
         (
-            self.corners.into_iter().map(vertices).collect(),
-            self.twins.into_iter().map(facets).collect(),
+            corners.into_iter().map(vertices).collect(),
+            twins.into_iter().map(facets).collect(),
         )
     }
-}
-
-#[inline(always)]
-fn word(vertex: VertexId, mark: u8) -> u32 {
-    vertex.0 | u32::from(mark) << MARK_SHIFT
 }
 
 /// What `of` gives for 0 to 3. (`array::from_fn` and `map` are not surely inlined into functions that are

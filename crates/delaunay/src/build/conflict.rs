@@ -1,7 +1,7 @@
 //! The conflict test: the only place that knows of infinity and of ties.
 
 use super::{
-    cells::four,
+    cells::{IN_CONFLICT, four},
     kernel::{INFINITE, Kernel},
 };
 use crate::{FacetId, TetId};
@@ -14,6 +14,9 @@ use pellicle_predicates::{
 
 /// A point that asks which tetrahedra it is in conflict with: a [`DVec3`], or one with a weight.
 pub(super) trait Query: Copy {
+    /// Whether the tetrahedron that contains the point may not be in conflict with it.
+    const MAY_BE_HIDDEN: bool;
+
     fn position(self) -> DVec3;
 
     /// Whether the point lies inside the sphere of a finite tetrahedron, cospherical points being told apart
@@ -34,6 +37,8 @@ pub(super) trait Query: Copy {
 }
 
 impl Query for DVec3 {
+    const MAY_BE_HIDDEN: bool = false;
+
     #[inline(always)]
     fn position(self) -> DVec3 {
         self
@@ -73,32 +78,33 @@ impl Kernel {
         query.is_inside(self, corners)
     }
 
-    /// [`is_in_conflict`](Self::is_in_conflict) of those neighbours of a tetrahedron that `asked` names, bit
-    /// i the one opposite corner i.
+    /// [`is_in_conflict`](Self::is_in_conflict) of the neighbours of a tetrahedron, bit i that of the one opposite corner i.
     #[inline(always)]
     pub(super) fn are_in_conflict<R: Registers>(
         &self,
         registers: R,
         corners: [VertexId; 4],
         twins: [FacetId; 4],
-        asked: u8,
         query: impl Query,
     ) -> u8 {
-        let (mut inside, mut undecided) = (0, asked);
+        let (mut inside, mut undecided) = (0, 0b1111);
         if corners[3] != INFINITE {
             let opposite = four(|i| self.cells.opposite(twins[i]));
             let [a, b, c, d] = four(|i| u8::from(opposite[i] == INFINITE) << i);
             let infinite = a | b | c | d;
-            let finite = asked & !infinite;
+            let finite = !infinite & 0b1111;
             let verdicts = query.is_inside_across(registers, self, corners, opposite, finite);
             inside = verdicts.inside & finite;
             let decided = verdicts.inside | verdicts.outside;
-            undecided = asked & (infinite | !decided);
+            undecided = infinite | (finite & !decided);
         }
         while undecided != 0 {
             let i = undecided.trailing_zeros();
             undecided &= undecided - 1;
-            inside |= u8::from(self.is_in_conflict(twins[i as usize].tet(), query)) << i;
+            let neighbor = twins[i as usize].tet();
+            let is_inside =
+                self.cells.mark(neighbor) == IN_CONFLICT || self.is_in_conflict(neighbor, query);
+            inside |= u8::from(is_inside) << i;
         }
         inside
     }

@@ -4,8 +4,12 @@ use super::kernel::{INFINITE, Kernel};
 use crate::{FacetId, TetId, Tetrahedralization, id::facet_vertices};
 use glam::DVec3;
 use pellicle_geometry::VertexId;
+use prefetch_index::prefetch_index;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::{
+    ops::Range,
+    sync::atomic::{AtomicU32, Ordering::Relaxed},
+};
 
 impl Kernel {
     /// Puts the tetrahedra into an order that does not depend on how they came to be, and names the
@@ -102,35 +106,47 @@ struct Places {
 }
 
 fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
-    let slots = (0..tets.len()).into_par_iter();
-    let of: Vec<AtomicU32> = slots.map(|_| AtomicU32::new(NONE)).collect();
-    let mut last = vec![NONE; vertices];
-    // Each thread has some of the vertices, and goes through all slots for the tetrahedra of these.
-    let share = vertices.div_ceil(rayon::current_num_threads());
-    let lists: Vec<Lists> = last
-        .par_chunks_mut(share)
+    /// So many slots are looked at in one go.
+    const SLOTS: usize = 1 << 16;
+    let unnumbered = |count: usize| -> Vec<AtomicU32> {
+        let all = (0..count).into_par_iter();
+        all.map(|_| AtomicU32::new(NONE)).collect()
+    };
+    let of = unnumbered(tets.len());
+    let last = unnumbered(vertices);
+    let threads = rayon::current_num_threads();
+    let share = (vertices / (4 * threads)).next_power_of_two();
+    let lists = Lists {
+        tets,
+        of: &of,
+        last: &last,
+        share_shift: share.ilog2(),
+        shared: threads > 1,
+    };
+    let found: Vec<Found> = tets
+        .par_chunks(SLOTS)
         .enumerate()
-        .map(|(part, last)| Lists::gather(tets, &of, part * share, last))
+        .map(|(k, chunk)| lists.gather(k * SLOTS..k * SLOTS + chunk.len()))
         .collect();
+
+    let mut starts = vec![0; vertices.div_ceil(share)];
+    let (mut infinite, mut unused) = (Vec::new(), Vec::new());
+    for mut more in found {
+        for (start, count) in starts.iter_mut().zip(more.by_share) {
+            *start += count;
+        }
+        infinite.append(&mut more.infinite);
+        unused.append(&mut more.unused);
+    }
     let mut finite = 0;
-    let mut starts = Vec::new();
-    for lists in &lists {
-        starts.push(finite);
-        finite += lists.finite;
+    for start in &mut starts {
+        finite += std::mem::replace(start, finite);
     }
     last.par_chunks(share)
         .zip(starts)
-        .for_each(|(lists, start)| number(tets, &of, lists, start));
+        .for_each(|(last, start)| lists.number(last, start));
 
-    let infinite = lists.into_iter().map(|lists| lists.infinite);
-    let mut infinite = infinite
-        .reduce(|mut all, mut more| {
-            all.append(&mut more);
-            all
-        })
-        .unwrap_or_default();
     infinite.par_sort_unstable_by_key(|&t| tets[t as usize]);
-    let unused = (0..tets.len() as u32).filter(|&t| tets[t as usize][0] == UNUSED);
     let used = finite as usize + infinite.len();
     for (t, place) in infinite.into_iter().chain(unused).zip(finite..) {
         of[t as usize].store(place, Relaxed);
@@ -142,65 +158,105 @@ fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
     }
 }
 
-/// What was found for some of the vertices.
-struct Lists {
-    finite: u32,
+/// By latest vertex the list of its finite tetrahedra, in any order: the last one in `last`, the one before each in `of`.
+struct Lists<'a> {
+    tets: &'a [[VertexId; 4]],
+    of: &'a [AtomicU32],
+    last: &'a [AtomicU32],
+    /// Two to this power are the vertices in a share.
+    share_shift: u32,
+    /// Whether several threads make the lists.
+    shared: bool,
+}
+
+/// What is in some of the slots.
+struct Found {
+    /// How many finite tetrahedra the vertices of each share have.
+    by_share: Vec<u32>,
     infinite: Vec<u32>,
+    unused: Vec<u32>,
 }
 
-impl Lists {
-    /// By latest vertex, from `start` on, the list of its finite tetrahedra: the last one in `last`, the one before each in
-    /// `of`.
-    fn gather(tets: &[[VertexId; 4]], of: &[AtomicU32], start: usize, last: &mut [u32]) -> Self {
-        let (mut finite, mut infinite) = (0, Vec::new());
-        for (t, tet) in tets.iter().enumerate() {
-            let Some(last) = last.get_mut(tet[0].index().wrapping_sub(start)) else {
-                continue;
-            };
-            if tet[3] == INFINITE {
-                infinite.push(t as u32);
+impl Lists<'_> {
+    /// Puts the finite tetrahedra in these slots into the lists.
+    fn gather(&self, slots: Range<usize>) -> Found {
+        let shares = self.last.len().div_ceil(1 << self.share_shift);
+        let mut found = Found {
+            by_share: vec![0; shares],
+            infinite: Vec::new(),
+            unused: Vec::new(),
+        };
+        for (t, tet) in (slots.start as u32..).zip(&self.tets[slots.clone()]) {
+            if tet[0] == UNUSED {
+                found.unused.push(t);
+            } else if tet[3] == INFINITE {
+                found.infinite.push(t);
             } else {
-                of[t].store(std::mem::replace(last, t as u32), Relaxed);
-                finite += 1;
+                let last = &self.last[tet[0].index()];
+                let before = if self.shared {
+                    last.swap(t, Relaxed)
+                } else {
+                    let before = last.load(Relaxed);
+                    last.store(t, Relaxed);
+                    before
+                };
+                self.of[t as usize].store(before, Relaxed);
+                found.by_share[tet[0].index() >> self.share_shift] += 1;
             }
         }
-        Self { finite, infinite }
+        found
     }
-}
 
-/// Each list in order, and in place of the list the places, from `next` on.
-///
-/// Of two tetrahedra with the same latest and least corners no two have the same second one: they would share a facet
-/// and lie on the same side of it.
-fn number(tets: &[[VertexId; 4]], of: &[AtomicU32], lists: &[u32], mut next: u32) {
-    let mut keys = Vec::new();
-    let mut slots = Vec::new();
-    for &first in lists {
-        let mut t = first;
-        keys.clear();
-        slots.clear();
-        while t != NONE {
-            let [_, second, _, least] = tets[t as usize];
-            keys.push(u64::from(least.0) << 32 | u64::from(second.0));
-            slots.push(t);
-            t = of[t as usize].load(Relaxed);
-        }
-        if keys.len() <= MOST_COMPARED {
-            // Comparing all with all takes no branch that could be foreseen wrongly.
-            for (&t, &key) in slots.iter().zip(&keys) {
-                let rank: u32 = keys.iter().map(|&other| u32::from(other < key)).sum();
-                of[t as usize].store(next + rank, Relaxed);
+    /// Each list in order, and in place of the list the places, from `next` on.
+    ///
+    /// Of two tetrahedra with the same latest and least corners no two have the same second one: they would share a facet
+    /// and lie on the same side of it.
+    fn number(&self, last: &[AtomicU32], mut next: u32) {
+        let Self { tets, of, .. } = *self;
+        /// So many lists are followed before their tetrahedra are looked at, which are asked for meanwhile.
+        const FOLLOWED: usize = 16;
+        let mut slots = Vec::new();
+        let mut keys = Vec::new();
+        let mut ends = Vec::with_capacity(FOLLOWED);
+        for last in last.chunks(FOLLOWED) {
+            slots.clear();
+            ends.clear();
+            for last in last {
+                let mut t = last.load(Relaxed);
+                while t != NONE {
+                    prefetch_index(tets, t as usize);
+                    slots.push(t);
+                    t = of[t as usize].load(Relaxed);
+                }
+                ends.push(slots.len());
             }
-        } else {
-            slots.sort_unstable_by_key(|&t| {
+            keys.clear();
+            keys.extend(slots.iter().map(|&t| {
                 let [_, second, _, least] = tets[t as usize];
-                (least, second)
-            });
-            for (rank, &t) in slots.iter().enumerate() {
-                of[t as usize].store(next + rank as u32, Relaxed);
+                u64::from(least.0) << 32 | u64::from(second.0)
+            }));
+            let mut start = 0;
+            for &end in &ends {
+                let (keys, slots) = (&keys[start..end], &mut slots[start..end]);
+                if keys.len() <= MOST_COMPARED {
+                    // Comparing all with all takes no branch that could be foreseen wrongly.
+                    for (&t, &key) in slots.iter().zip(keys) {
+                        let rank: u32 = keys.iter().map(|&other| u32::from(other < key)).sum();
+                        of[t as usize].store(next + rank, Relaxed);
+                    }
+                } else {
+                    slots.sort_unstable_by_key(|&t| {
+                        let [_, second, _, least] = tets[t as usize];
+                        (least, second)
+                    });
+                    for (rank, &t) in slots.iter().enumerate() {
+                        of[t as usize].store(next + rank as u32, Relaxed);
+                    }
+                }
+                next += (end - start) as u32;
+                start = end;
             }
         }
-        next += slots.len() as u32;
     }
 }
 
@@ -308,13 +364,18 @@ impl<'a> Rows<'a> {
 
     fn move_into_places(&mut self) {
         for slot in 0..self.of.len() {
-            loop {
-                let place = (self.of[slot] - self.start) as usize;
-                if place == slot {
-                    break;
-                }
-                self.swap(slot, place);
+            let mut place = (self.of[slot] - self.start) as usize;
+            if place == slot {
+                continue;
             }
+            let mut carried = (self.of[slot], self.tets[slot], self.twins[slot]);
+            while place != slot {
+                std::mem::swap(&mut carried.0, &mut self.of[place]);
+                std::mem::swap(&mut carried.1, &mut self.tets[place]);
+                std::mem::swap(&mut carried.2, &mut self.twins[place]);
+                place = (carried.0 - self.start) as usize;
+            }
+            (self.of[slot], self.tets[slot], self.twins[slot]) = carried;
         }
     }
 }

@@ -13,6 +13,7 @@ use crate::{Error, FacetId, TetId, id::FACET_CORNERS};
 use glam::DVec3;
 use pellicle_geometry::{Aabb, VertexId};
 use pellicle_predicates::StaticFilter;
+use rayon::prelude::*;
 use std::{
     ops::Range,
     sync::atomic::{AtomicUsize, Ordering::Relaxed},
@@ -23,10 +24,6 @@ pub(crate) const INFINITE: VertexId = VertexId(0);
 
 /// Facet ids leave 30 bits for tetrahedra.
 pub(super) const MOST_TETS: usize = 1 << 30;
-
-/// The part of the tetrahedra to expect that are sure to come: grids end with fewer a point than their subsets.
-/// For the others room is made when they come.
-const LEAST_SHARE: f64 = 0.875;
 
 pub(super) struct Kernel {
     /// By vertex; the first stands for infinity and decides nothing.
@@ -49,7 +46,7 @@ impl Kernel {
     pub(super) fn of_first_tetrahedron(points: &[DVec3], order: &[u32]) -> Self {
         let mut sorted = Vec::with_capacity(order.len() + 1);
         sorted.push(points[order[0] as usize]);
-        sorted.extend(order.iter().map(|&i| points[i as usize]));
+        sorted.par_extend(order.par_iter().map(|&i| points[i as usize]));
         let bounds = Aabb::of_points(&sorted);
 
         // Samples of volumes have 6.8 tetrahedra a point; memory that is not touched costs nothing.
@@ -106,15 +103,15 @@ impl Kernel {
         }
     }
 
-    /// Prepares for a round that multiplies the points by `factor`: the tetrahedra are spread over as many
-    /// slots as there will be, and `workers` have a region each to fill.
+    /// Prepares for a round that multiplies the tetrahedra by `growth`: those that are there are spread as wide, over `room`
+    /// times as many slots, and `workers` have a region each to fill.
     ///
     /// The tetrahedra lie in memory about as the Hilbert curve runs. Where they are spread, each round's
     /// tetrahedra come to lie among those of the rounds before: neighbours in space stay neighbours in
     /// memory, and an insertion touches few pages.
-    pub(super) fn spread(&mut self, factor: f64, workers: usize) {
-        let wanted = (self.cells.count() as f64 * factor * LEAST_SHARE) as usize;
-        self.cells.spread(wanted.min(MOST_TETS));
+    pub(super) fn spread(&mut self, growth: f64, room: f64, workers: usize) {
+        let slots = (self.count() as f64 * room) as usize;
+        self.cells.spread(slots.min(MOST_TETS), growth, workers);
         self.regions = Region::divide(0..self.cells.len(), workers);
         self.blocks.prepare(self.cells.len(), workers);
     }
@@ -132,6 +129,11 @@ impl Kernel {
     /// Gives all slots out again, those in use included.
     pub(super) fn reset_regions(&mut self) {
         self.regions = Region::divide(0..self.cells.len(), 1);
+    }
+
+    /// How many tetrahedra there are.
+    pub(super) fn count(&self) -> usize {
+        self.cells.count()
     }
 
     /// How many slots there are.

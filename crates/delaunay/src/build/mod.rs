@@ -10,6 +10,7 @@ mod kernel;
 mod lattice;
 mod locate;
 mod parallel;
+mod spreading;
 mod steps;
 mod weighted;
 mod worker;

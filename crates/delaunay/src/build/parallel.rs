@@ -35,6 +35,14 @@ const CHUNK: usize = 512;
 /// Rounds with fewer points are one thread's work.
 const LEAST_SHARED_ROUND: usize = 8192;
 
+/// The part of the tetrahedra to expect from the last round that are sure to come: grids end with fewer a point than their
+/// subsets. For the others room is made when they come.
+const LEAST_SHARE: f64 = 0.875;
+
+/// Before the last round there is room for more than those to expect: what is added behind all others lies far from its
+/// neighbours in the next round.
+const AMPLE_SHARE: f64 = 1.03;
+
 /// How often a worker tries again what others were in the way of, before it leaves it to the end.
 const ATTEMPTS: usize = 4;
 
@@ -44,13 +52,19 @@ pub(super) fn insert_all(kernel: &mut Kernel, progress: &dyn Progress) -> Result
     let threads = rayon::current_num_threads().clamp(1, Blocks::MOST_WORKERS);
     let mut workers: Vec<Crew> = (0..threads).map(|index| Crew::new(index, end)).collect();
     let mut start = 5.min(end);
+    let mut trend = Trend::default();
     for round_end in round_ends(end) {
         let count = if round_end - start < LEAST_SHARED_ROUND {
             1
         } else {
             threads
         };
-        kernel.spread(round_end as f64 / start as f64, count);
+        let growth = trend.growth(start, kernel.count(), round_end);
+        let room = match round_end == end {
+            true => LEAST_SHARE * round_end as f64 / start as f64,
+            false => AMPLE_SHARE * growth,
+        };
+        kernel.spread(growth, room, count);
         for (index, crew) in workers[..count].iter_mut().enumerate() {
             crew.worker.start_round(kernel.first_of_region(index));
         }
@@ -67,6 +81,24 @@ fn round_ends(points: usize) -> impl Iterator<Item = usize> {
         .rev()
         .map(move |round| points >> (3 * round))
         .filter(|&end| end > 5)
+}
+
+/// How many tetrahedra a point has, which may become more from round to round (on some surfaces by a tenth) or fewer.
+#[derive(Default)]
+struct Trend {
+    /// Before the last round.
+    by_point: Option<f64>,
+}
+
+impl Trend {
+    /// By how much the tetrahedra of `points` points will have been multiplied when there are `more` points.
+    fn growth(&mut self, points: usize, tets: usize, more: usize) -> f64 {
+        let by_point = tets as f64 / points as f64;
+        let before = self.by_point.replace(by_point).unwrap_or(by_point);
+        // By as much more as in the last round, within reason.
+        let trend = (2.0 - before / by_point).clamp(0.8, 1.25);
+        trend * more as f64 / points as f64
+    }
 }
 
 /// A worker and what it still has to insert; away from what other threads write to.
@@ -275,7 +307,7 @@ impl<const SHARED: bool> Vectorized for Turn<'_, SHARED> {
                 let outcome = match kernel.weights.is_empty() {
                     true => {
                         let point = kernel.point(vertex);
-                        worker.insert::<SHARED, R>(registers, kernel, vertex, point)
+                        worker.insert::<SHARED, R, _>(registers, kernel, vertex, point)
                     }
                     false => worker.insert_weighted::<SHARED, R>(registers, kernel, vertex),
                 };

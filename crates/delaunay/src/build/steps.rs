@@ -202,9 +202,18 @@ impl Stepwise {
 
     /// Marks the tetrahedra in conflict with a point that is no vertex, and returns them.
     pub(crate) fn dig_around(&mut self, p: DVec3) -> &[TetId] {
-        let start = self.worker.locate::<false>(&self.kernel, p);
-        self.dig_from(start.expect("no walk is given up where nobody else is"), p);
+        self.dig_from(self.locate(p), p);
         self.dug()
+    }
+
+    /// A tetrahedron in conflict with a point.
+    fn locate(&self, p: DVec3) -> TetId {
+        let tet = vectorized(Locate {
+            kernel: &self.kernel,
+            worker: &self.worker,
+            p,
+        });
+        tet.expect("no walk is given up where nobody else is")
     }
 
     /// The tetrahedra that the last [`dig_around`](Self::dig_around) found.
@@ -314,6 +323,23 @@ impl Stepwise {
             of: "tetrahedra",
             limit: self.most_tets,
         }
+    }
+}
+
+/// A point is located.
+struct Locate<'a> {
+    kernel: &'a Kernel,
+    worker: &'a Worker,
+    p: DVec3,
+}
+
+impl Vectorized for Locate<'_> {
+    type Output = Option<TetId>;
+
+    #[inline(always)]
+    fn run<R: Registers>(self, registers: R) -> Option<TetId> {
+        let Self { kernel, worker, p } = self;
+        worker.locate::<false, R>(registers, kernel, p)
     }
 }
 

@@ -232,3 +232,25 @@ fn the_validator_finds_a_swapped_twin_and_a_turned_tetrahedron() {
     assert!(damaged(|tets, _| tets[0].swap(0, 1)).contains(&Defect::Orientation(TetId(0))));
     assert!(damaged(|tets, _| tets[0][0] = tets[0][1]).contains(&Defect::Corners(TetId(0))));
 }
+
+/// Cavities of all sizes around those where the way to pair edges changes.
+#[test]
+fn a_cavity_may_have_any_number_of_vertices() {
+    for vertices in [4_u32, 5, 63, 64, 65, 66, 253, 254, 255, 256, 257, 300] {
+        // Along a spiral on a sphere around the last point, which is so in conflict with all tetrahedra.
+        let turn = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let on_sphere = (0..vertices).map(|i| {
+            let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(vertices);
+            let (sin, cos) = (turn * f64::from(i)).sin_cos();
+            DVec3::new(cos, sin, 0.0) * (1.0 - z * z).sqrt() + DVec3::Z * z
+        });
+        let points: Vec<DVec3> = on_sphere.chain([DVec3::ZERO]).collect();
+        let options = Options {
+            order: InsertionOrder::AsGiven,
+        };
+        let tetrahedralization =
+            crate::tetrahedralize(&points, &options).expect("in general position");
+        assert_eq!(tetrahedralization.finite_count(), 2 * vertices as usize - 4);
+        assert_eq!(tetrahedralization.validate(), [], "{vertices}");
+    }
+}

@@ -29,6 +29,8 @@ pub(super) struct Weighted {
 }
 
 impl Query for Weighted {
+    const MAY_BE_HIDDEN: bool = true;
+
     #[inline(always)]
     fn position(self) -> DVec3 {
         self.position
@@ -72,7 +74,7 @@ impl Worker {
             position: kernel.point(vertex),
             weight: kernel.weights[vertex.index()],
         };
-        self.insert::<SHARED, R>(registers, kernel, vertex, weighted)
+        self.insert::<SHARED, R, _>(registers, kernel, vertex, weighted)
     }
 }
 

@@ -52,22 +52,23 @@ impl Worker {
 
     /// Inserts a point. `SHARED` says whether others may be inserting at the same time.
     #[inline(always)]
-    pub(super) fn insert<const SHARED: bool, R: Registers>(
+    pub(super) fn insert<const SHARED: bool, R: Registers, Q: Query>(
         &mut self,
         registers: R,
         kernel: &Kernel,
         vertex: VertexId,
-        query: impl Query,
+        query: Q,
     ) -> Outcome {
         // 1. A tetrahedron in conflict.
-        let Some(start) = self.locate::<SHARED>(kernel, query.position()) else {
+        let Some(start) = self.locate::<SHARED, R>(registers, kernel, query.position()) else {
             return Outcome::Contended;
         };
         if SHARED && !(self.held.hold(&kernel.blocks, start) && kernel.cells.mark(start) == AT_REST)
         {
             return Outcome::Contended;
         }
-        if !kernel.is_in_conflict(start, query) {
+        debug_assert!(SHARED || Q::MAY_BE_HIDDEN || kernel.is_in_conflict(start, query));
+        if (SHARED || Q::MAY_BE_HIDDEN) && !kernel.is_in_conflict(start, query) {
             // A weight may hide the point. Or others changed the tetrahedron on the way.
             let is_hidden = !SHARED || kernel.contains(start, query.position());
             return match is_hidden {
