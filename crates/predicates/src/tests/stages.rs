@@ -136,6 +136,21 @@ proptest! {
         prop_assert_eq!(fixed.insphere(a, b, c, d, e), truth);
     }
 
+    /// One point far away, so that the spreads say nothing, and three so near, in a plane with the last one, that products of
+    /// their coordinates underflow.
+    #[test]
+    fn monomials_that_underflow_are_not_trusted(
+        near in prop::array::uniform3((-64..64_i32, -64..64_i32, Just(0)).prop_map(|(x, y, z)| [x, y, z])),
+        far in prop::array::uniform3(1..64_i32),
+        exponent in 255..285_i32,
+    ) {
+        let scaled = |p: [i32; 3], scale: f64| DVec3::from_array(p.map(|c| f64::from(c) * scale));
+        let [a, b, c] = near.map(|p| scaled(p, 2.0_f64.powi(-exponent)));
+        let d = scaled(far, 1.0);
+        let truth = exact::insphere(a, b, c, d, DVec3::ZERO);
+        prop_assert!(right(filter::insphere(a, b, c, d, DVec3::ZERO), truth));
+    }
+
     /// The ends of the operands are numbers they contain, so all results of ends must be contained.
     #[test]
     fn interval_operations_contain_their_results(x in any_interval(), y in any_interval()) {
