@@ -56,7 +56,7 @@ pub use plane::StaticFilter2;
 
 use crate::{
     Sign, determinant,
-    lanes::{self, FourSides, FourVerdicts, InSphereBounds, Registers},
+    lanes::{self, AtInfinity, FourSides, FourVerdicts, InSphereBounds, Registers},
     lifted,
     statistics::{Predicate, Stage, decided},
 };
@@ -488,7 +488,7 @@ impl StaticFilter {
     /// Which of the four neighbours of the positive tetrahedron `corners` have `p` inside their spheres, as
     /// far as the filters can say: four tests at once. Ties on a lattice (see [`with_unit`](Self::with_unit)) go as
     /// [`lifted::insphere`] has them; `p` must be none of the vertices, and the neighbours positive. Neighbour i shares all corners but corner i, in whose
-    /// place it has `opposite[i]`; `asked` has bit i where its verdict is wanted.
+    /// place it has `opposite[i]`. The sphere of a neighbour with the vertex at infinity is the half-space beyond its other vertices.
     #[inline(always)]
     pub fn insphere_across<R: Registers>(
         &self,
@@ -496,18 +496,19 @@ impl StaticFilter {
         corners: [DVec3; 4],
         opposite: [DVec3; 4],
         p: DVec3,
-        asked: u8,
+        at_infinity: AtInfinity,
     ) -> FourVerdicts {
         self.check(&corners);
         self.check(&opposite);
         let bounds = InSphereBounds {
             of_box: self.insphere,
+            of_orientations: self.orient3d,
             half_unit: self.half_unit_of_insphere,
             factor: INSPHERE,
             least: TINY,
             most: HUGE,
         };
-        lanes::insphere_across(registers, corners, opposite, p, asked, bounds)
+        lanes::insphere_across(registers, corners, opposite, p, at_infinity, bounds)
     }
 
     /// On which side of the four facets of the positive tetrahedron `corners` the point `p` lies, as far as the filter can

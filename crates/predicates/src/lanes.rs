@@ -358,7 +358,24 @@ const FIRST: i32 = lanes([3, 2, 3, 1]);
 const SECOND: i32 = lanes([1, 0, 0, 0]);
 const THIRD: i32 = lanes([2, 3, 1, 2]);
 
-/// For each corner of the positive tetrahedron `corners` that `asked` names: whether `p` is inside the sphere of
+/// Where the vertex at infinity is among the four neighbours of a tetrahedron. Its coordinates have no say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct AtInfinity {
+    /// Bit i: it is opposite corner i, of a finite tetrahedron.
+    pub opposite: u8,
+    /// It is corner 3 of the tetrahedron itself.
+    pub corner: bool,
+}
+
+impl AtInfinity {
+    /// The neighbours that have it as a vertex.
+    #[inline(always)]
+    fn lanes(self) -> u8 {
+        if self.corner { 0b0111 } else { self.opposite }
+    }
+}
+
+/// For each corner of the positive tetrahedron `corners`: whether `p` is inside the sphere of
 /// the neighbour opposite that corner, whose fourth vertex is `opposite`. The static filter, and where that is
 /// not enough, the semi-static one; on a lattice ties too, by the perturbation of [`lifted`](crate::lifted).
 ///
@@ -369,7 +386,7 @@ pub(crate) fn insphere_across<R: Registers>(
     corners: [DVec3; 4],
     opposite: [DVec3; 4],
     p: DVec3,
-    asked: u8,
+    at_infinity: AtInfinity,
     bounds: InSphereBounds,
 ) -> FourVerdicts {
     let corners = differences(registers, corners, p);
@@ -390,7 +407,13 @@ pub(crate) fn insphere_across<R: Registers>(
         inside: registers.greater(value, bound),
         outside: registers.greater(negated, bound),
     };
-    let undecided = asked & !(verdicts.inside | verdicts.outside);
+    let infinite = at_infinity.lanes();
+    if infinite != 0 {
+        let half_spaces = half_spaces(registers, coefficients, at_infinity, bounds.of_orientations);
+        verdicts.inside = verdicts.inside & !infinite | half_spaces.inside;
+        verdicts.outside = verdicts.outside & !infinite | half_spaces.outside;
+    }
+    let undecided = !(verdicts.inside | verdicts.outside | infinite) & 0b1111;
     if undecided == 0 {
         return verdicts;
     }
@@ -415,6 +438,39 @@ pub(crate) fn insphere_across<R: Registers>(
 #[inline(always)]
 fn splat<R: Registers>(registers: R, x: f64) -> R::Four {
     registers.set([x; 4])
+}
+
+/// The spheres through the vertex at infinity are half-spaces: in the determinant its lift outweighs everything, and what that is
+/// weighted by says on which side of the other three vertices the origin lies. The static filter of orientations decides.
+#[inline(always)]
+fn half_spaces<R: Registers>(
+    registers: R,
+    [bcd, _, dab, abc]: [Lanes<R>; 4],
+    at_infinity: AtInfinity,
+    bound: f64,
+) -> FourVerdicts {
+    let bound = splat(registers, bound);
+    let surely = |lanes: Lanes<R>| {
+        let negated = registers.sub(splat(registers, 0.0), lanes.four);
+        (
+            registers.greater(lanes.four, bound),
+            registers.greater(negated, bound),
+        )
+    };
+    if at_infinity.corner {
+        // The first vertex in lanes 0 and 2, the third in lane 1 (see `facets`).
+        let (first, third) = (surely(bcd), surely(dab));
+        FourVerdicts {
+            inside: first.0 & 0b0101 | third.0 & 0b0010,
+            outside: first.1 & 0b0101 | third.1 & 0b0010,
+        }
+    } else {
+        let (outside, inside) = surely(abc);
+        FourVerdicts {
+            inside: inside & at_infinity.opposite,
+            outside: outside & at_infinity.opposite,
+        }
+    }
 }
 
 /// The bound on the error of each lane's determinant from the spreads of its points, and which lanes it holds for.
@@ -533,6 +589,8 @@ impl<R: Registers> Largest<R> {
 pub(crate) struct InSphereBounds {
     /// For all points of a box.
     pub(crate) of_box: f64,
+    /// For their orientation determinant.
+    pub(crate) of_orientations: f64,
     /// Where the points are on a lattice, half the least determinant that is not zero: with a smaller error, one
     /// that may be zero is zero. 0 elsewhere.
     pub(crate) half_unit: f64,

@@ -9,7 +9,7 @@ use glam::DVec3;
 use pellicle_geometry::VertexId;
 use pellicle_predicates::{
     Sign,
-    lanes::{FourVerdicts, Registers},
+    lanes::{AtInfinity, FourVerdicts, Registers},
 };
 
 /// A point that asks which tetrahedra it is in conflict with: a [`DVec3`], or one with a weight.
@@ -24,15 +24,14 @@ pub(super) trait Query: Copy {
     /// three of the corners the fourth one must have no say.
     fn is_inside(self, kernel: &Kernel, corners: [VertexId; 4]) -> bool;
 
-    /// Of the four neighbours of a finite tetrahedron, which have the fourth vertices `opposite`, those that are
-    /// asked for: what filters can say at once.
+    /// Of the four neighbours of a tetrahedron, which have the fourth vertices `opposite`: what filters can say at once.
     fn is_inside_across<R: Registers>(
         self,
         registers: R,
         kernel: &Kernel,
         corners: [VertexId; 4],
         opposite: [VertexId; 4],
-        asked: u8,
+        at_infinity: AtInfinity,
     ) -> FourVerdicts;
 }
 
@@ -58,12 +57,12 @@ impl Query for DVec3 {
         kernel: &Kernel,
         corners: [VertexId; 4],
         opposite: [VertexId; 4],
-        asked: u8,
+        at_infinity: AtInfinity,
     ) -> FourVerdicts {
         let corners = four(|i| kernel.point(corners[i]));
         let opposite = four(|i| kernel.point(opposite[i]));
         let filter = &kernel.filter;
-        filter.insphere_across(registers, corners, opposite, self, asked)
+        filter.insphere_across(registers, corners, opposite, self, at_infinity)
     }
 }
 
@@ -87,17 +86,15 @@ impl Kernel {
         twins: [FacetId; 4],
         query: impl Query,
     ) -> u8 {
-        let (mut inside, mut undecided) = (0, 0b1111);
-        if corners[3] != INFINITE {
-            let opposite = four(|i| self.cells.opposite(twins[i]));
-            let [a, b, c, d] = four(|i| u8::from(opposite[i] == INFINITE) << i);
-            let infinite = a | b | c | d;
-            let finite = !infinite & 0b1111;
-            let verdicts = query.is_inside_across(registers, self, corners, opposite, finite);
-            inside = verdicts.inside & finite;
-            let decided = verdicts.inside | verdicts.outside;
-            undecided = infinite | (finite & !decided);
-        }
+        let opposite = four(|i| self.cells.opposite(twins[i]));
+        let [a, b, c, d] = four(|i| u8::from(opposite[i] == INFINITE) << i);
+        let at_infinity = AtInfinity {
+            opposite: a | b | c | d,
+            corner: corners[3] == INFINITE,
+        };
+        let verdicts = query.is_inside_across(registers, self, corners, opposite, at_infinity);
+        let mut inside = verdicts.inside;
+        let mut undecided = !(verdicts.inside | verdicts.outside) & 0b1111;
         while undecided != 0 {
             let i = undecided.trailing_zeros();
             undecided &= undecided - 1;

@@ -18,7 +18,7 @@ use crate::Error;
 use pellicle_geometry::{DVec3, VertexId};
 use pellicle_predicates::{
     Sign,
-    lanes::{FourVerdicts, Registers},
+    lanes::{AtInfinity, FourVerdicts, Registers},
 };
 
 /// A point with a weight, in a kernel whose vertices have weights.
@@ -55,7 +55,7 @@ impl Query for Weighted {
         _kernel: &Kernel,
         _corners: [VertexId; 4],
         _opposite: [VertexId; 4],
-        _asked: u8,
+        _: AtInfinity,
     ) -> FourVerdicts {
         FourVerdicts::default()
     }

@@ -6,7 +6,7 @@ use super::{
 };
 use crate::{
     Sign, StaticFilter, insphere,
-    lanes::{FourSides, FourVerdicts, Plain, Registers, Vectorized, vectorized},
+    lanes::{AtInfinity, FourSides, FourVerdicts, Plain, Registers, Vectorized, vectorized},
     lifted, orient3d,
 };
 use glam::DVec3;
@@ -20,7 +20,7 @@ struct Across {
     corners: [DVec3; 4],
     opposite: [DVec3; 4],
     p: DVec3,
-    asked: u8,
+    at_infinity: AtInfinity,
 }
 
 impl Vectorized for Across {
@@ -33,10 +33,23 @@ impl Vectorized for Across {
             corners,
             opposite,
             p,
-            asked,
+            at_infinity,
         } = self;
-        filter.insphere_across(registers, corners, opposite, p, asked)
+        filter.insphere_across(registers, corners, opposite, p, at_infinity)
     }
+}
+
+fn at_infinity() -> impl Strategy<Value = AtInfinity> {
+    prop_oneof![
+        (0..16_u8).prop_map(|opposite| AtInfinity {
+            opposite,
+            corner: false,
+        }),
+        Just(AtInfinity {
+            opposite: 0,
+            corner: true,
+        }),
+    ]
 }
 
 struct Sides {
@@ -84,7 +97,7 @@ proptest! {
         five in points(),
         others in points(),
         lane in 0..4_usize,
-        asked in 0..16_u8,
+        at_infinity in at_infinity(),
     ) {
         let [a, b, c, d, e] = space(&five);
         let [q, ..]: [DVec3; 5] = space(&others);
@@ -94,13 +107,24 @@ proptest! {
         corners[lane] = q;
         let opposite = [d; 4];
         let filter = filter(&[a, b, c, d, e, q]);
-        let across = |asked| Across { filter, corners, opposite, p: e, asked };
-        let verdicts = vectorized(across(asked));
-        prop_assert_eq!(verdicts, across(asked).run(Plain));
+        let across = || Across { filter, corners, opposite, p: e, at_infinity };
+        let verdicts = vectorized(across());
+        prop_assert_eq!(verdicts, across().run(Plain));
         for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
             let [x, y, z] = neighbor.map(|corner| corners[corner]);
-            let truth = insphere(x, y, z, opposite[i], e);
             let bit = |set: u8| set >> i & 1 == 1;
+            if at_infinity.corner && i != 3 || bit(at_infinity.opposite) {
+                // Corner 3 is the first vertex in lanes 0 and 2 and the third in lane 1; opposite vertices are the fourth.
+                let truth = match (at_infinity.corner, i) {
+                    (true, 1) => -orient3d(x, y, opposite[i], e),
+                    (true, _) => -orient3d(y, z, opposite[i], e),
+                    (false, _) => orient3d(x, y, z, e),
+                };
+                prop_assert!(!bit(verdicts.inside) || truth == Sign::Positive);
+                prop_assert!(!bit(verdicts.outside) || truth == Sign::Negative);
+                continue;
+            }
+            let truth = insphere(x, y, z, opposite[i], e);
             if truth == Sign::Zero {
                 let vertices = [x, y, z, opposite[i]];
                 if orient3d(x, y, z, opposite[i]) != Sign::Positive || vertices.contains(&e) {
@@ -168,7 +192,7 @@ proptest! {
         let (corners, opposite, p) = (corners.map(corner), opposite.map(corner), corner(p));
         let size = if wide { 1000.0 } else { 1.0 };
         let filter = StaticFilter::from_bounds(DVec3::ZERO, DVec3::splat(size)).with_unit(1.0);
-        let across = || Across { filter, corners, opposite, p, asked: 0b1111 };
+        let across = || Across { filter, corners, opposite, p, at_infinity: AtInfinity::default() };
         let verdicts = vectorized(across());
         prop_assert_eq!(verdicts, across().run(Plain));
         for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
