@@ -50,6 +50,7 @@
 //! rounding is monotone, so no computed difference exceeds the computed extent.
 
 pub(crate) mod magnitudes;
+mod out_of_line;
 mod plane;
 
 pub use plane::StaticFilter2;
@@ -526,19 +527,6 @@ impl StaticFilter {
         lanes::sides_of_facets(registers, corners, p, bound, half_unit)
     }
 
-    /// [`lifted::insphere_of_cospherical`] for points inside the box, which are known to be cospherical.
-    #[inline]
-    pub fn insphere_of_cospherical(
-        &self,
-        a: DVec3,
-        b: DVec3,
-        c: DVec3,
-        d: DVec3,
-        e: DVec3,
-    ) -> Sign {
-        lifted::insphere_of_cospherical_by([a, b, c, d, e], |a, b, c, d| self.orient3d(a, b, c, d))
-    }
-
     /// [`lifted::insphere`] for points inside the box.
     #[inline(always)]
     pub fn insphere_perturbed(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
@@ -548,70 +536,10 @@ impl StaticFilter {
                 sign
             }
             None if self.insphere < self.half_unit_of_insphere => {
-                self.insphere_of_cospherical(a, b, c, d, e)
+                let orient3d = |a, b, c, d| self.orient3d(a, b, c, d);
+                lifted::insphere_of_cospherical_by([a, b, c, d, e], orient3d)
             }
             None => out_of_line::insphere_perturbed(a, b, c, d, e),
         }
-    }
-}
-
-/// What follows a static filter that could not decide, kept out of the callers' loops.
-mod out_of_line {
-    use super::{DVec2, DVec3, Sign, lifted};
-
-    #[cold]
-    #[inline(never)]
-    pub(super) fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> Sign {
-        crate::orient2d(a, b, c)
-    }
-
-    #[cold]
-    #[inline(never)]
-    pub(super) fn orient3d(a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Sign {
-        crate::orient3d(a, b, c, d)
-    }
-
-    #[cold]
-    #[inline(never)]
-    pub(super) fn incircle(a: DVec2, b: DVec2, c: DVec2, d: DVec2) -> Sign {
-        crate::incircle(a, b, c, d)
-    }
-
-    #[cold]
-    #[inline(never)]
-    pub(super) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
-        crate::insphere(a, b, c, d, e)
-    }
-
-    #[cold]
-    #[inline(never)]
-    pub(super) fn power_test(
-        a: DVec3,
-        b: DVec3,
-        c: DVec3,
-        d: DVec3,
-        e: DVec3,
-        weights: [f64; 5],
-    ) -> Sign {
-        crate::power_test(a, b, c, d, e, weights)
-    }
-
-    #[cold]
-    #[inline(never)]
-    pub(super) fn power_test_perturbed(
-        a: DVec3,
-        b: DVec3,
-        c: DVec3,
-        d: DVec3,
-        e: DVec3,
-        weights: [f64; 5],
-    ) -> Sign {
-        lifted::power_test(a, b, c, d, e, weights)
-    }
-
-    #[cold]
-    #[inline(never)]
-    pub(super) fn insphere_perturbed(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
-        lifted::insphere(a, b, c, d, e)
     }
 }
