@@ -143,17 +143,11 @@ pub fn insphere_of_cospherical(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3)
 /// The same, with signs of orientation from elsewhere.
 #[inline]
 pub(crate) fn insphere_of_cospherical_by(
-    [a, b, c, d, e]: [DVec3; 5],
+    points: [DVec3; 5],
     orient3d: impl Fn(DVec3, DVec3, DVec3, DVec3) -> Sign,
 ) -> Sign {
     decided(Predicate::InSphere, Stage::Perturbation);
-    from_the_largest([a, b, c, d, e], lexicographic, |raised| match raised {
-        0 => orient3d(e, b, c, d),
-        1 => orient3d(a, e, c, d),
-        2 => orient3d(a, b, e, d),
-        3 => orient3d(a, b, c, e),
-        _ => -orient3d(a, b, c, d),
-    })
+    by_factors(points, orient3d)
 }
 
 /// The sign of the perturbation for five points whose lifts are already known to lie on one hyperplane: the
@@ -162,11 +156,14 @@ pub(crate) fn insphere_of_cospherical_by(
 #[inline(never)]
 pub fn power_test_of_cospherical(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Sign {
     decided(Predicate::PowerTest, Stage::Perturbation);
-    by_factors([a, b, c, d, e])
+    by_factors([a, b, c, d, e], orient3d)
 }
 
 #[inline(always)]
-fn by_factors([a, b, c, d, e]: [DVec3; 5]) -> Sign {
+fn by_factors(
+    [a, b, c, d, e]: [DVec3; 5],
+    orient3d: impl Fn(DVec3, DVec3, DVec3, DVec3) -> Sign,
+) -> Sign {
     from_the_largest([a, b, c, d, e], lexicographic, |raised| match raised {
         0 => orient3d(e, b, c, d),
         1 => orient3d(a, e, c, d),

@@ -4,7 +4,7 @@
 //! `docs/benchmarks/instructions.json`. They are the same from run to run; another compiler, or a processor with other vector
 //! registers, changes them a little.
 
-use crate::{Outcome, execute};
+use crate::Outcome;
 use serde_json::{Map, Value, json};
 use std::fmt::Write as _;
 use std::path::Path;
@@ -75,21 +75,8 @@ fn about() -> String {
 }
 
 fn count_all(root: &Path) -> Result<Counts, String> {
-    execute(
-        root,
-        &[],
-        &[
-            "cargo",
-            "build",
-            "--release",
-            "--package",
-            "pellicle-delaunay",
-            "--example",
-            "count_delaunay",
-        ],
-    )?;
+    let program = super::delaunay_examples(root, &["count_delaunay"])?.join("count_delaunay");
     let target = super::target_folder(root)?;
-    let program = target.join("release/examples/count_delaunay");
     let out = format!(
         "--callgrind-out-file={}",
         target.join("callgrind.out").to_string_lossy()

@@ -47,6 +47,20 @@ fn command_line(root: &Path) -> Result<(PathBuf, PathBuf), String> {
     Ok((target.join("release").join(name), scratch))
 }
 
+/// Builds examples of `pellicle-delaunay` in release, and returns the folder where they are.
+fn delaunay_examples(root: &Path, names: &[&str]) -> Result<PathBuf, String> {
+    let mut command = vec![
+        "cargo",
+        "build",
+        "--release",
+        "--package",
+        "pellicle-delaunay",
+    ];
+    command.extend(names.iter().flat_map(|name| ["--example", *name]));
+    execute(root, &[], &command)?;
+    Ok(target_folder(root)?.join("release/examples"))
+}
+
 /// Compiles a peer that stands on CGAL, `xtask/peers/NAME.cpp`, into a folder, and returns where it is.
 fn cgal_program(root: &Path, scratch: &Path, name: &str) -> Result<PathBuf, String> {
     let program = scratch.join(name);

@@ -3,7 +3,6 @@
 use super::arguments::Arguments;
 use super::runs::Runs;
 use crate::bench::measured::{self, Measured};
-use crate::execute;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::Duration;
@@ -63,26 +62,12 @@ impl Programs {
     /// Builds ours, and finds or builds the others; tells which are missing.
     pub fn build(root: &Path, arguments: &Arguments) -> Result<Self, String> {
         let [ours, checker] = ["time_delaunay", "check_delaunay"];
-        execute(
-            root,
-            &[],
-            &[
-                "cargo",
-                "build",
-                "--release",
-                "--package",
-                "pellicle-delaunay",
-                "--example",
-                ours,
-                "--example",
-                checker,
-            ],
-        )?;
+        let examples = crate::bench::delaunay_examples(root, &[ours, checker])?;
         let target = crate::bench::target_folder(root)?;
         let scratch = target.join("bench");
         std::fs::create_dir_all(&scratch)
             .map_err(|error| format!("{}: {error}", scratch.display()))?;
-        let example = |name: &str| target.join("release/examples").join(name);
+        let example = |name: &str| examples.join(name);
         let mut programs = Self {
             timed: arguments
                 .threads
