@@ -155,8 +155,22 @@ fn semi_static<const D: usize, const N: usize>(
     bound: impl Fn([f64; D]) -> f64,
     value: impl Fn() -> f64,
 ) -> Option<Sign> {
+    semi_static_or(vectors, bound, value, |_| None)
+}
+
+/// The same, and a sharper bound for a value that is not certain by that of the spreads.
+#[inline(always)]
+fn semi_static_or<const D: usize, const N: usize>(
+    vectors: &[[f64; D]; N],
+    bound: impl Fn([f64; D]) -> f64,
+    value: impl Fn() -> f64,
+    sharper: impl Fn(f64) -> Option<Sign>,
+) -> Option<Sign> {
     match spreads(vectors) {
-        Ok(spreads) => certain(value(), bound(spreads)),
+        Ok(spreads) => {
+            let value = value();
+            certain(value, bound(spreads)).or_else(|| sharper(value))
+        }
         Err(Unfit::Flat) => Some(Sign::Zero),
         Err(Unfit::OutOfRange) => None,
     }
@@ -193,14 +207,12 @@ pub(crate) fn insphere(a: DVec3, b: DVec3, c: DVec3, d: DVec3, e: DVec3) -> Opti
         (c - e).to_array(),
         (d - e).to_array(),
     ];
-    match spreads(&v) {
-        Ok(spreads) => {
-            let value = determinant::insphere(&v[0], &v[1], &v[2], &v[3]);
-            certain(value, insphere_bound(spreads)).or_else(|| magnitudes::insphere(&v, value))
-        }
-        Err(Unfit::Flat) => Some(Sign::Zero),
-        Err(Unfit::OutOfRange) => None,
-    }
+    semi_static_or(
+        &v,
+        insphere_bound,
+        || determinant::insphere(&v[0], &v[1], &v[2], &v[3]),
+        |value| magnitudes::insphere(&v, value),
+    )
 }
 
 /// The weights minus the last one.

@@ -103,15 +103,13 @@ pub(crate) fn sides_of_facets<R: Registers>(
     let corners = differences(registers, corners, p);
     let [first, second, third] = facets(corners);
     let value = determinant::orient3d(&first, &second, &third).four;
-    let negated = registers.sub(splat(registers, 0.0), value);
-    let bound_of_box = splat(registers, bound);
-    let beyond = registers.greater(value, bound_of_box);
+    let (beyond, within) = surely(registers, value, splat(registers, bound));
     FourSides {
         beyond,
-        within: if bound < half_unit {
-            !beyond & 0b1111
-        } else {
-            registers.greater(negated, bound_of_box)
+        // On a lattice what may be zero is zero: not beyond.
+        within: match bound < half_unit {
+            true => !beyond & 0b1111,
+            false => within,
         },
     }
 }
@@ -193,12 +191,8 @@ pub(crate) fn insphere_across<R: Registers>(
         &determinant::lift(&opposite),
     ];
     let value = determinant::weighted(&coefficients, lifts).four;
-    let negated = registers.sub(splat(registers, 0.0), value);
-    let bound = splat(registers, bounds.of_box);
-    let mut verdicts = FourVerdicts {
-        inside: registers.greater(value, bound),
-        outside: registers.greater(negated, bound),
-    };
+    let (inside, outside) = surely(registers, value, splat(registers, bounds.of_box));
+    let mut verdicts = FourVerdicts { inside, outside };
     let infinite = at_infinity.lanes();
     if infinite != 0 {
         let half_spaces = half_spaces(registers, coefficients, at_infinity, bounds.of_orientations);
@@ -214,8 +208,9 @@ pub(crate) fn insphere_across<R: Registers>(
     if bounds.of_box >= bounds.half_unit {
         let (bound, is_usable) = semi_static_bound(registers, points, bounds);
         let usable = undecided & is_usable;
-        verdicts.inside |= usable & registers.greater(value, bound);
-        verdicts.outside |= usable & registers.greater(negated, bound);
+        let (inside, outside) = surely(registers, value, bound);
+        verdicts.inside |= usable & inside;
+        verdicts.outside |= usable & outside;
         let undecided = usable & !(verdicts.inside | verdicts.outside);
         cospherical = undecided & registers.greater(splat(registers, bounds.half_unit), bound);
     }
@@ -232,6 +227,16 @@ fn splat<R: Registers>(registers: R, x: f64) -> R::Four {
     registers.set([x; 4])
 }
 
+/// The lanes that are surely positive, and those that are surely negative: beyond the bound on their error.
+#[inline(always)]
+fn surely<R: Registers>(registers: R, value: R::Four, bound: R::Four) -> (u8, u8) {
+    let negated = registers.sub(splat(registers, 0.0), value);
+    (
+        registers.greater(value, bound),
+        registers.greater(negated, bound),
+    )
+}
+
 /// The spheres through the vertex at infinity are half-spaces: in the determinant its lift outweighs everything, and what that is
 /// weighted by says on which side of the other three vertices the origin lies. The static filter of orientations decides.
 #[inline(always)]
@@ -242,22 +247,16 @@ fn half_spaces<R: Registers>(
     bound: f64,
 ) -> FourVerdicts {
     let bound = splat(registers, bound);
-    let surely = |lanes: Lanes<R>| {
-        let negated = registers.sub(splat(registers, 0.0), lanes.four);
-        (
-            registers.greater(lanes.four, bound),
-            registers.greater(negated, bound),
-        )
-    };
     if at_infinity.corner {
         // The first vertex in lanes 0 and 2, the third in lane 1 (see `facets`).
-        let (first, third) = (surely(bcd), surely(dab));
+        let first = surely(registers, bcd.four, bound);
+        let third = surely(registers, dab.four, bound);
         FourVerdicts {
             inside: first.0 & 0b0101 | third.0 & 0b0010,
             outside: first.1 & 0b0101 | third.1 & 0b0010,
         }
     } else {
-        let (outside, inside) = surely(abc);
+        let (outside, inside) = surely(registers, abc.four, bound);
         FourVerdicts {
             inside: inside & at_infinity.opposite,
             outside: outside & at_infinity.opposite,

@@ -231,32 +231,38 @@ impl Lists<'_> {
                 ends.push(slots.len());
             }
             keys.clear();
-            keys.extend(slots.iter().map(|&t| {
-                let [_, second, _, least] = tets[t as usize];
-                u64::from(least.0) << 32 | u64::from(second.0)
-            }));
+            keys.extend(slots.iter().map(|&t| self.key(t)));
             let mut start = 0;
             for &end in &ends {
-                let (keys, slots) = (&keys[start..end], &mut slots[start..end]);
-                if keys.len() <= MOST_COMPARED {
-                    // Comparing all with all takes no branch that could be foreseen wrongly.
-                    for (&t, &key) in slots.iter().zip(keys) {
-                        let rank: u32 = keys.iter().map(|&other| u32::from(other < key)).sum();
-                        of[t as usize].store(next + rank, Relaxed);
-                    }
-                } else {
-                    slots.sort_unstable_by_key(|&t| {
-                        let [_, second, _, least] = tets[t as usize];
-                        (least, second)
-                    });
-                    for (rank, &t) in slots.iter().enumerate() {
-                        of[t as usize].store(next + rank as u32, Relaxed);
-                    }
-                }
+                self.number_one(&mut slots[start..end], &keys[start..end], next);
                 next += (end - start) as u32;
                 start = end;
             }
         }
+    }
+
+    /// One list, of these slots, by their keys: the least has the place `next`.
+    #[inline(always)]
+    fn number_one(&self, slots: &mut [u32], keys: &[u64], next: u32) {
+        if slots.len() <= MOST_COMPARED {
+            // Comparing all with all takes no branch that could be foreseen wrongly.
+            for (&t, &key) in slots.iter().zip(keys) {
+                let rank: u32 = keys.iter().map(|&other| u32::from(other < key)).sum();
+                self.of[t as usize].store(next + rank, Relaxed);
+            }
+        } else {
+            slots.sort_unstable_by_key(|&t| self.key(t));
+            for (&t, place) in slots.iter().zip(next..) {
+                self.of[t as usize].store(place, Relaxed);
+            }
+        }
+    }
+
+    /// What tetrahedra of one latest vertex are ordered by: the least corner, then the second one.
+    #[inline(always)]
+    fn key(&self, slot: u32) -> u64 {
+        let [_, second, _, least] = self.tets[slot as usize];
+        u64::from(least.0) << 32 | u64::from(second.0)
     }
 }
 

@@ -103,14 +103,13 @@ impl Kernel {
         }
     }
 
-    /// Prepares for a round that multiplies the tetrahedra by `growth`: those that are there are spread as wide, over `room`
-    /// times as many slots, and `workers` have a region each to fill.
+    /// Prepares for a round that multiplies the tetrahedra by `growth`: those that are there are spread as wide, over as many
+    /// `slots` as there may be, and `workers` have a region each to fill.
     ///
     /// The tetrahedra lie in memory about as the Hilbert curve runs. Where they are spread, each round's
     /// tetrahedra come to lie among those of the rounds before: neighbours in space stay neighbours in
     /// memory, and an insertion touches few pages.
-    pub(super) fn spread(&mut self, growth: f64, room: f64, workers: usize) {
-        let slots = (self.count() as f64 * room) as usize;
+    pub(super) fn spread(&mut self, growth: f64, slots: usize, workers: usize) {
         self.cells.spread(slots.min(MOST_TETS), growth, workers);
         self.regions = Region::divide(0..self.cells.len(), workers);
         self.blocks.prepare(self.cells.len(), workers);

@@ -59,12 +59,13 @@ pub(super) fn insert_all(kernel: &mut Kernel, progress: &dyn Progress) -> Result
         } else {
             threads
         };
-        let growth = trend.growth(start, kernel.count(), round_end);
+        let tets = kernel.count();
+        let growth = trend.growth(start, tets, round_end);
         let room = match round_end == end {
             true => LEAST_SHARE * round_end as f64 / start as f64,
             false => AMPLE_SHARE * growth,
         };
-        kernel.spread(growth, room, count);
+        kernel.spread(growth, (tets as f64 * room) as usize, count);
         for (index, crew) in workers[..count].iter_mut().enumerate() {
             crew.worker.start_round(kernel.first_of_region(index));
         }
