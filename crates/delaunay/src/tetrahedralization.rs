@@ -36,9 +36,9 @@ impl<'a> Tetrahedralization<'a> {
         tets: Vec<[VertexId; 4]>,
         twins: Vec<[FacetId; 4]>,
         finite: usize,
+        mut incident: Vec<TetId>,
         duplicates: Vec<(VertexId, VertexId)>,
     ) -> Self {
-        let mut incident = last_incident(points.len(), &tets[..finite]);
         for &(duplicate, representative) in &duplicates {
             incident[duplicate.index()] = incident[representative.index()];
         }
@@ -152,7 +152,7 @@ impl<'a> Tetrahedralization<'a> {
 }
 
 /// By vertex the last of these tetrahedra that it is a corner of, or none.
-fn last_incident(vertices: usize, tets: &[[VertexId; 4]]) -> Vec<TetId> {
+pub(crate) fn last_incident(vertices: usize, tets: &[[VertexId; 4]]) -> Vec<TetId> {
     const CHUNK: usize = 1 << 15;
     // One more than the tetrahedron's number.
     let vertices = (0..vertices).into_par_iter();

@@ -1,7 +1,9 @@
 //! From the kernel's arrays to the caller's vertices.
 
 use super::kernel::{INFINITE, Kernel};
-use crate::{FacetId, TetId, Tetrahedralization, id::facet_vertices};
+use crate::{
+    FacetId, TetId, Tetrahedralization, id::facet_vertices, tetrahedralization::last_incident,
+};
 use glam::DVec3;
 use pellicle_geometry::VertexId;
 use prefetch_index::prefetch_index;
@@ -42,13 +44,19 @@ impl Kernel {
         twins.truncate(used);
         tets.shrink_to_fit();
         twins.shrink_to_fit();
+        // The kernel's vertices lie about as the tetrahedra do, the caller's anywhere.
+        let last = last_incident(vertices, &tets[..finite]);
+        let mut incident = vec![TetId::NONE; points.len()];
+        for (&vertex, &tet) in order.iter().zip(&last[1..]) {
+            incident[vertex as usize] = tet;
+        }
         tets.par_iter_mut().for_each(|tet| {
             *tet = tet.map(|vertex| match vertex {
                 INFINITE => Tetrahedralization::INFINITE,
                 VertexId(vertex) => VertexId(order[vertex as usize - 1]),
             });
         });
-        Tetrahedralization::from_arrays(points, tets, twins, finite, duplicates)
+        Tetrahedralization::from_arrays(points, tets, twins, finite, incident, duplicates)
     }
 }
 
@@ -289,30 +297,34 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Moves the tetrahedra, with their places, to these places.
+    /// Moves the tetrahedra to these places.
     ///
-    /// Slots and places run about alike, but swapping along the cycles of the permutation would jump through all of
+    /// Slots and places run about alike, but following the cycles of the permutation would jump through all of
     /// memory all the same. So each goes into the right block first, to where the blocks' next free places are,
-    /// which are few enough to stay in the cache; then to its place in the block (McIlroy et al. 1993).
+    /// which are few enough to stay in the cache; then to its place in the block (McIlroy et al. 1993), by way of a copy
+    /// of the block's corners or twins.
     ///
     /// Since they run about alike, few need to go from one thread's share to another's.
     fn arrange(mut self) {
-        const BLOCK: u32 = 15;
         const SHARE: u32 = 20;
+        // A copy needs little memory beside all the others, and stays in the cache.
+        let block = (self.of.len().max(1).ilog2().saturating_sub(6)).clamp(12, 17);
         if rayon::current_num_threads() == 1 {
-            self.move_into_blocks(BLOCK);
-            for mut block in self.chunks(BLOCK) {
-                block.move_into_places();
-            }
-            return;
+            self.move_into_places(block);
+        } else {
+            self.move_into_blocks(SHARE);
+            (self.chunks(SHARE).into_par_iter()).for_each(|share| share.move_into_places(block));
         }
-        self.move_into_blocks(SHARE);
-        self.chunks(SHARE).into_par_iter().for_each(|mut rows| {
-            rows.move_into_blocks(BLOCK);
-            for mut block in rows.chunks(BLOCK) {
-                block.move_into_places();
-            }
-        });
+    }
+
+    /// By way of blocks of two to this power.
+    fn move_into_places(mut self, block: u32) {
+        self.move_into_blocks(block);
+        for rows in self.chunks(block) {
+            let place = |slot: usize| (rows.of[slot] - rows.start) as usize;
+            permute(rows.tets, place);
+            permute(rows.twins, place);
+        }
     }
 
     fn chunks(&mut self, size: u32) -> Vec<Rows<'_>> {
@@ -367,21 +379,12 @@ impl<'a> Rows<'a> {
             }
         }
     }
+}
 
-    fn move_into_places(&mut self) {
-        for slot in 0..self.of.len() {
-            let mut place = (self.of[slot] - self.start) as usize;
-            if place == slot {
-                continue;
-            }
-            let mut carried = (self.of[slot], self.tets[slot], self.twins[slot]);
-            while place != slot {
-                std::mem::swap(&mut carried.0, &mut self.of[place]);
-                std::mem::swap(&mut carried.1, &mut self.tets[place]);
-                std::mem::swap(&mut carried.2, &mut self.twins[place]);
-                place = (carried.0 - self.start) as usize;
-            }
-            (self.of[slot], self.tets[slot], self.twins[slot]) = carried;
-        }
+/// Each row to its place.
+fn permute<T: Copy>(rows: &mut [T], place: impl Fn(usize) -> usize) {
+    let before = rows.to_vec();
+    for (slot, &row) in before.iter().enumerate() {
+        rows[place(slot)] = row;
     }
 }

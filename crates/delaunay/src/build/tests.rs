@@ -1,7 +1,7 @@
 //! The kernel, checked after every insertion, and the promise that order does not matter.
 
 use super::*;
-use crate::{Defect, TetId};
+use crate::{Defect, TetId, tetrahedralization::last_incident};
 use proptest::prelude::*;
 
 /// Small sets that are as degenerate as they come.
@@ -224,7 +224,9 @@ fn the_validator_finds_a_swapped_twin_and_a_turned_tetrahedron() {
     let damaged = |damage: fn(&mut Vec<[VertexId; 4]>, &mut Vec<[crate::FacetId; 4]>)| {
         let (mut tets, mut twins) = (whole.tets().to_vec(), whole.twins().to_vec());
         damage(&mut tets, &mut twins);
-        Tetrahedralization::from_arrays(&points, tets, twins, whole.finite_count(), Vec::new())
+        let finite = whole.finite_count();
+        let incident = last_incident(points.len(), &tets[..finite]);
+        Tetrahedralization::from_arrays(&points, tets, twins, finite, incident, Vec::new())
             .validate()
     };
     assert_eq!(damaged(|_, _| ()), []);

@@ -3,7 +3,7 @@
 use super::{DynamicTetrahedralization, inner, outer};
 use crate::{
     Defect, Error, FacetId, Options, TetId, Tetrahedralization, build::INFINITE,
-    connectivity::Connectivity, tetrahedralize,
+    connectivity::Connectivity, tetrahedralization::last_incident, tetrahedralize,
 };
 use pellicle_geometry::{DVec3, VertexId, first_not_finite};
 
@@ -128,11 +128,14 @@ impl DynamicTetrahedralization {
         };
         let placed = |facet: FacetId| FacetId::of(places[facet.tet().index()], facet.corner());
         let twins = |tet: TetId| [0, 1, 2, 3].map(|i| placed(self.twin(FacetId::of(tet, i))));
+        let tets: Vec<_> = order.iter().map(|&tet| self.tet(tet).map(named)).collect();
+        let incident = last_incident(points.len(), &tets[..finite.len()]);
         Ok(Tetrahedralization::from_arrays(
             points,
-            order.iter().map(|&tet| self.tet(tet).map(named)).collect(),
+            tets,
             order.iter().map(|&tet| twins(tet)).collect(),
             finite.len(),
+            incident,
             Vec::new(),
         ))
     }

@@ -70,7 +70,12 @@ pub fn vectorized<W: Vectorized>(work: W) -> W::Output {
                 self.0.run(self.1)
             }
         }
-        return instructions.vectorize(Call(work, Avx2(instructions)));
+        let call = Call(work, Avx2(instructions));
+        // With these there are twice as many registers of 256 bits, and masks have registers of their own.
+        return match pulp::x86::V4::try_new() {
+            Some(more) => more.vectorize(call),
+            None => instructions.vectorize(call),
+        };
     }
     work.run(Plain)
 }
