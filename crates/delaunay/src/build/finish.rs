@@ -1,11 +1,15 @@
 //! From the kernel's arrays to the caller's vertices.
 
-use super::kernel::{INFINITE, Kernel};
+use super::{
+    cells::MOST_VERTICES,
+    kernel::{INFINITE, Kernel},
+};
 use crate::{
     FacetId, TetId, Tetrahedralization, id::facet_vertices, tetrahedralization::last_incident,
 };
 use glam::DVec3;
 use pellicle_geometry::VertexId;
+use pellicle_predicates::lanes::{Registers, Vectorized, vectorized};
 use prefetch_index::prefetch_index;
 use rayon::prelude::*;
 use std::{
@@ -150,9 +154,13 @@ fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
     for start in &mut starts {
         finite += std::mem::replace(start, finite);
     }
-    last.par_chunks(share)
-        .zip(starts)
-        .for_each(|(last, start)| lists.number(last, start));
+    last.par_chunks(share).zip(starts).for_each(|(last, next)| {
+        vectorized(Numbering {
+            lists: &lists,
+            last,
+            next,
+        });
+    });
 
     infinite.par_sort_unstable_by_key(|&t| tets[t as usize]);
     let used = finite as usize + infinite.len();
@@ -215,18 +223,75 @@ impl Lists<'_> {
         found
     }
 
-    /// Each list in order, and in place of the list the places, from `next` on.
+    /// The list of these slots in order: the first has the place `next`. Comparing all with all takes no branch that could
+    /// be foreseen wrongly.
+    #[inline(always)]
+    fn number_few<R: Registers>(&self, registers: R, slots: &[u32], next: u32) {
+        let mut keys = [f64::INFINITY; MOST_COMPARED];
+        for (key, &t) in keys.iter_mut().zip(slots) {
+            *key = self.key(t);
+        }
+        let fours = slots.len().div_ceil(4);
+        for (&t, &key) in slots.iter().zip(&keys) {
+            let key = registers.set([key; 4]);
+            let mut rank = 0;
+            for others in &keys.as_chunks::<4>().0[..fours] {
+                rank += registers.greater(key, registers.set(*others)).count_ones();
+            }
+            self.of[t as usize].store(next + rank, Relaxed);
+        }
+    }
+
+    #[cold]
+    fn number_many(&self, slots: &mut [u32], next: u32) {
+        slots.sort_unstable_by(|&one, &other| self.key(one).total_cmp(&self.key(other)));
+        for (&t, place) in slots.iter().zip(next..) {
+            self.of[t as usize].store(place, Relaxed);
+        }
+    }
+
+    /// What tetrahedra of one latest vertex are ordered by: the least corner, then the second one. As the bits of a number
+    /// between 2 and infinity, which are in the order of these numbers.
+    #[inline(always)]
+    fn key(&self, slot: u32) -> f64 {
+        let [_, second, _, least] = self.tets[slot as usize];
+        const { assert!(MOST_VERTICES <= 1 << 28) };
+        f64::from_bits(1 << 62 | u64::from(least.0) << 32 | u64::from(second.0))
+    }
+}
+
+/// Some of the lists, and the first place of what is in them.
+struct Numbering<'a> {
+    lists: &'a Lists<'a>,
+    last: &'a [AtomicU32],
+    next: u32,
+}
+
+impl Vectorized for Numbering<'_> {
+    type Output = ();
+
+    /// Each list in order, and in place of the list the places.
     ///
     /// Of two tetrahedra with the same latest and least corners no two have the same second one: they would share a facet
     /// and lie on the same side of it.
-    fn number(&self, last: &[AtomicU32], mut next: u32) {
-        let Self { tets, of, .. } = *self;
-        /// So many lists are followed before their tetrahedra are looked at, which are asked for meanwhile.
+    #[inline(always)]
+    fn run<R: Registers>(self, registers: R) {
+        let Self {
+            lists,
+            last: all,
+            mut next,
+        } = self;
+        let Lists { tets, of, .. } = *lists;
+        /// So many lists are followed before their tetrahedra are looked at, which are asked for meanwhile; as the ends of
+        /// the lists after these are.
         const FOLLOWED: usize = 16;
         let mut slots = Vec::new();
-        let mut keys = Vec::new();
         let mut ends = Vec::with_capacity(FOLLOWED);
-        for last in last.chunks(FOLLOWED) {
+        let mut following = all.chunks(FOLLOWED).skip(1);
+        for last in all.chunks(FOLLOWED) {
+            for next in following.next().unwrap_or_default() {
+                prefetch_index(of, next.load(Relaxed) as usize);
+            }
             slots.clear();
             ends.clear();
             for last in last {
@@ -238,39 +303,18 @@ impl Lists<'_> {
                 }
                 ends.push(slots.len());
             }
-            keys.clear();
-            keys.extend(slots.iter().map(|&t| self.key(t)));
             let mut start = 0;
             for &end in &ends {
-                self.number_one(&mut slots[start..end], &keys[start..end], next);
+                let slots = &mut slots[start..end];
+                if slots.len() <= MOST_COMPARED {
+                    lists.number_few(registers, slots, next);
+                } else {
+                    lists.number_many(slots, next);
+                }
                 next += (end - start) as u32;
                 start = end;
             }
         }
-    }
-
-    /// One list, of these slots, by their keys: the least has the place `next`.
-    #[inline(always)]
-    fn number_one(&self, slots: &mut [u32], keys: &[u64], next: u32) {
-        if slots.len() <= MOST_COMPARED {
-            // Comparing all with all takes no branch that could be foreseen wrongly.
-            for (&t, &key) in slots.iter().zip(keys) {
-                let rank: u32 = keys.iter().map(|&other| u32::from(other < key)).sum();
-                self.of[t as usize].store(next + rank, Relaxed);
-            }
-        } else {
-            slots.sort_unstable_by_key(|&t| self.key(t));
-            for (&t, place) in slots.iter().zip(next..) {
-                self.of[t as usize].store(place, Relaxed);
-            }
-        }
-    }
-
-    /// What tetrahedra of one latest vertex are ordered by: the least corner, then the second one.
-    #[inline(always)]
-    fn key(&self, slot: u32) -> u64 {
-        let [_, second, _, least] = self.tets[slot as usize];
-        u64::from(least.0) << 32 | u64::from(second.0)
     }
 }
 
