@@ -107,6 +107,9 @@ const UNUSED: VertexId = VertexId::NONE;
 /// Up to this many tetrahedra of one latest vertex, all are compared with all.
 const MOST_COMPARED: usize = 64;
 
+/// The least [key](Lists::key) of a finite tetrahedron.
+const FIRST_FINITE: f64 = f64::from_bits(1 << 62 | 1 << 32);
+
 /// Where the tetrahedra go.
 struct Places {
     /// By slot the place in the result; those of slots without a tetrahedron come last.
@@ -141,18 +144,25 @@ fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
         .map(|(k, chunk)| lists.gather(k * SLOTS..k * SLOTS + chunk.len()))
         .collect();
 
-    let mut starts = vec![0; vertices.div_ceil(share)];
-    let (mut infinite, mut unused) = (Vec::new(), Vec::new());
+    let mut starts = vec![Counts::default(); vertices.div_ceil(share)];
+    let mut unused = Vec::new();
     for mut more in found {
         for (start, count) in starts.iter_mut().zip(more.by_share) {
-            *start += count;
+            start.finite += count.finite;
+            start.infinite += count.infinite;
         }
-        infinite.append(&mut more.infinite);
         unused.append(&mut more.unused);
     }
-    let mut finite = 0;
+    // From how many there are to how many come before.
+    let finite: u32 = starts.iter().map(|count| count.finite).sum();
+    let mut next = Counts {
+        finite: 0,
+        infinite: finite,
+    };
     for start in &mut starts {
-        finite += std::mem::replace(start, finite);
+        let count = std::mem::replace(start, next);
+        next.finite += count.finite;
+        next.infinite += count.infinite;
     }
     last.par_chunks(share).zip(starts).for_each(|(last, next)| {
         vectorized(Numbering {
@@ -162,19 +172,18 @@ fn places(tets: &[[VertexId; 4]], vertices: usize) -> Places {
         });
     });
 
-    infinite.par_sort_unstable_by_key(|&t| tets[t as usize]);
-    let used = finite as usize + infinite.len();
-    for (t, place) in infinite.into_iter().chain(unused).zip(finite..) {
+    let used = next.infinite;
+    for (t, place) in unused.into_iter().zip(used..) {
         of[t as usize].store(place, Relaxed);
     }
     Places {
         of: of.into_iter().map(AtomicU32::into_inner).collect(),
         finite: finite as usize,
-        used,
+        used: used as usize,
     }
 }
 
-/// By latest vertex the list of its finite tetrahedra, in any order: the last one in `last`, the one before each in `of`.
+/// By latest vertex the list of its tetrahedra, in any order: the last one in `last`, the one before each in `of`.
 struct Lists<'a> {
     tets: &'a [[VertexId; 4]],
     of: &'a [AtomicU32],
@@ -187,26 +196,29 @@ struct Lists<'a> {
 
 /// What is in some of the slots.
 struct Found {
-    /// How many finite tetrahedra the vertices of each share have.
-    by_share: Vec<u32>,
-    infinite: Vec<u32>,
+    /// How many tetrahedra the vertices of each share have.
+    by_share: Vec<Counts>,
     unused: Vec<u32>,
 }
 
+/// Of tetrahedra, or of places taken.
+#[derive(Clone, Copy, Default)]
+struct Counts {
+    finite: u32,
+    infinite: u32,
+}
+
 impl Lists<'_> {
-    /// Puts the finite tetrahedra in these slots into the lists.
+    /// Puts the tetrahedra in these slots into the lists.
     fn gather(&self, slots: Range<usize>) -> Found {
         let shares = self.last.len().div_ceil(1 << self.share_shift);
         let mut found = Found {
-            by_share: vec![0; shares],
-            infinite: Vec::new(),
+            by_share: vec![Counts::default(); shares],
             unused: Vec::new(),
         };
         for (t, tet) in (slots.start as u32..).zip(&self.tets[slots.clone()]) {
             if tet[0] == UNUSED {
                 found.unused.push(t);
-            } else if tet[3] == INFINITE {
-                found.infinite.push(t);
             } else {
                 let last = &self.last[tet[0].index()];
                 let before = if self.shared {
@@ -217,41 +229,64 @@ impl Lists<'_> {
                     before
                 };
                 self.of[t as usize].store(before, Relaxed);
-                found.by_share[tet[0].index() >> self.share_shift] += 1;
+                let counts = &mut found.by_share[tet[0].index() >> self.share_shift];
+                match tet[3] {
+                    INFINITE => counts.infinite += 1,
+                    _ => counts.finite += 1,
+                }
             }
         }
         found
     }
 
-    /// The list of these slots in order: the first has the place `next`. Comparing all with all takes no branch that could
-    /// be foreseen wrongly.
+    /// The list of these slots in order. Comparing all with all takes no branch that could be foreseen wrongly.
     #[inline(always)]
-    fn number_few<R: Registers>(&self, registers: R, slots: &[u32], next: u32) {
-        let mut keys = [f64::INFINITY; MOST_COMPARED];
+    fn number_few<R: Registers>(
+        &self,
+        registers: R,
+        slots: &[u32],
+        keys: &mut [f64; MOST_COMPARED],
+        next: &mut Counts,
+    ) {
+        let mut infinite = 0;
         for (key, &t) in keys.iter_mut().zip(slots) {
             *key = self.key(t);
+            infinite += u32::from(*key < FIRST_FINITE);
         }
         let fours = slots.len().div_ceil(4);
-        for (&t, &key) in slots.iter().zip(&keys) {
+        keys[slots.len()..4 * fours].fill(f64::INFINITY);
+        for (&t, &key) in slots.iter().zip(&*keys) {
             let key = registers.set([key; 4]);
             let mut rank = 0;
             for others in &keys.as_chunks::<4>().0[..fours] {
                 rank += registers.greater(key, registers.set(*others)).count_ones();
             }
-            self.of[t as usize].store(next + rank, Relaxed);
+            let place = match rank < infinite {
+                true => next.infinite + rank,
+                false => next.finite + rank - infinite,
+            };
+            self.of[t as usize].store(place, Relaxed);
         }
+        next.infinite += infinite;
+        next.finite += slots.len() as u32 - infinite;
     }
 
     #[cold]
-    fn number_many(&self, slots: &mut [u32], next: u32) {
-        slots.sort_unstable_by(|&one, &other| self.key(one).total_cmp(&self.key(other)));
-        for (&t, place) in slots.iter().zip(next..) {
-            self.of[t as usize].store(place, Relaxed);
+    fn number_many(&self, slots: &[u32], next: &mut Counts) {
+        let mut keyed: Vec<(f64, u32)> = slots.iter().map(|&t| (self.key(t), t)).collect();
+        keyed.sort_unstable_by(|one, other| one.0.total_cmp(&other.0));
+        for (key, t) in keyed {
+            let next = match key < FIRST_FINITE {
+                true => &mut next.infinite,
+                false => &mut next.finite,
+            };
+            self.of[t as usize].store(*next, Relaxed);
+            *next += 1;
         }
     }
 
-    /// What tetrahedra of one latest vertex are ordered by: the least corner, then the second one. As the bits of a number
-    /// between 2 and infinity, which are in the order of these numbers.
+    /// What tetrahedra of one latest vertex are ordered by: the least corner, that at infinity before all others, then the
+    /// second one. As the bits of a number between 2 and infinity, which are in the order of these numbers.
     #[inline(always)]
     fn key(&self, slot: u32) -> f64 {
         let [_, second, _, least] = self.tets[slot as usize];
@@ -260,11 +295,11 @@ impl Lists<'_> {
     }
 }
 
-/// Some of the lists, and the first place of what is in them.
+/// Some of the lists, and the first places of what is in them.
 struct Numbering<'a> {
     lists: &'a Lists<'a>,
     last: &'a [AtomicU32],
-    next: u32,
+    next: Counts,
 }
 
 impl Vectorized for Numbering<'_> {
@@ -287,6 +322,7 @@ impl Vectorized for Numbering<'_> {
         const FOLLOWED: usize = 16;
         let mut slots = Vec::new();
         let mut ends = Vec::with_capacity(FOLLOWED);
+        let mut keys = [f64::INFINITY; MOST_COMPARED];
         let mut following = all.chunks(FOLLOWED).skip(1);
         for last in all.chunks(FOLLOWED) {
             for next in following.next().unwrap_or_default() {
@@ -305,13 +341,12 @@ impl Vectorized for Numbering<'_> {
             }
             let mut start = 0;
             for &end in &ends {
-                let slots = &mut slots[start..end];
+                let slots = &slots[start..end];
                 if slots.len() <= MOST_COMPARED {
-                    lists.number_few(registers, slots, next);
+                    lists.number_few(registers, slots, &mut keys, &mut next);
                 } else {
-                    lists.number_many(slots, next);
+                    lists.number_many(slots, &mut next);
                 }
-                next += (end - start) as u32;
                 start = end;
             }
         }
