@@ -4,7 +4,7 @@ use crate::TetId;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::*};
 
 /// Two to this power are the slots in a block: neighbours in space, mostly.
-const BLOCK_SHIFT: u32 = 6;
+const BLOCK_SHIFT: u32 = 3;
 
 /// The owner of a block that nobody holds.
 const FREE: u8 = 0;
