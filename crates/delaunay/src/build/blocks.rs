@@ -30,6 +30,14 @@ impl Blocks {
     }
 }
 
+impl Blocks {
+    /// Says that who holds the tetrahedron's block will be asked for soon.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, tet: TetId) {
+        prefetch_index::prefetch_index(&self.owners, tet.index() >> BLOCK_SHIFT);
+    }
+}
+
 /// The blocks that a worker holds.
 pub(super) struct Held {
     /// Who it is, among the owners.

@@ -191,6 +191,9 @@ impl Worker {
                 let twins = cells.twins(cavity.conflict[next + 1]);
                 four(|i| cells.prefetch_corners(twins[i].tet()));
                 four(|i| cells.prefetch_mark(twins[i].tet()));
+                if SHARED {
+                    four(|i| kernel.blocks.prefetch(twins[i].tet()));
+                }
             }
             let corners = cells.corners(tet);
             let twins = cells.twins(tet);
