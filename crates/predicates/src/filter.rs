@@ -49,6 +49,7 @@
 //! an interval that holds all weights (static):
 //! rounding is monotone, so no computed difference exceeds the computed extent.
 
+mod across;
 pub(crate) mod magnitudes;
 mod out_of_line;
 mod plane;
@@ -56,9 +57,7 @@ mod plane;
 pub use plane::StaticFilter2;
 
 use crate::{
-    Sign, determinant,
-    lanes::{self, AtInfinity, FourSides, FourVerdicts, InSphereBounds, Registers},
-    lifted,
+    Sign, determinant, lifted,
     statistics::{Predicate, Stage, decided},
 };
 use glam::{DVec2, DVec3};
@@ -371,6 +370,15 @@ impl StaticFilter {
         );
     }
 
+    #[inline(always)]
+    fn check_weights(&self, weights: &[f64]) {
+        let [least, greatest] = self.weights;
+        debug_assert!(
+            weights.iter().all(|w| (least..=greatest).contains(w)),
+            "a weight outside the filter's interval: {weights:?}"
+        );
+    }
+
     /// [`orient3d`](crate::orient3d) by the static filter alone: `None` when undecided.
     #[inline(always)]
     pub fn orient3d_filtered(&self, a: DVec3, b: DVec3, c: DVec3, d: DVec3) -> Option<Sign> {
@@ -440,11 +448,7 @@ impl StaticFilter {
         weights: [f64; 5],
     ) -> Option<Sign> {
         self.check(&[a, b, c, d, e]);
-        let [least, greatest] = self.weights;
-        debug_assert!(
-            weights.iter().all(|w| (least..=greatest).contains(w)),
-            "a weight outside the filter's interval: {weights:?}"
-        );
+        self.check_weights(&weights);
         let [a, b, c, d] = [
             (a - e).to_array(),
             (b - e).to_array(),
@@ -496,47 +500,6 @@ impl StaticFilter {
             }
             None => out_of_line::power_test_perturbed(a, b, c, d, e, weights),
         }
-    }
-
-    /// Which of the four neighbours of the positive tetrahedron `corners` have `p` inside their spheres, as
-    /// far as the filters can say: four tests at once. Ties on a lattice (see [`with_unit`](Self::with_unit)) go as
-    /// [`lifted::insphere`] has them; `p` must be none of the vertices, and the neighbours positive. Neighbour i shares all corners but corner i, in whose
-    /// place it has `opposite[i]`. The sphere of a neighbour with the vertex at infinity is the half-space beyond its other vertices.
-    #[inline(always)]
-    pub fn insphere_across<R: Registers>(
-        &self,
-        registers: R,
-        corners: [DVec3; 4],
-        opposite: [DVec3; 4],
-        p: DVec3,
-        at_infinity: AtInfinity,
-    ) -> FourVerdicts {
-        self.check(&corners);
-        self.check(&opposite);
-        let bounds = InSphereBounds {
-            of_box: self.insphere,
-            of_orientations: self.orient3d,
-            half_unit: self.half_unit_of_insphere,
-            factor: INSPHERE,
-            least: TINY,
-            most: HUGE,
-        };
-        lanes::insphere_across(registers, corners, opposite, p, at_infinity, bounds)
-    }
-
-    /// On which side of the four facets of the positive tetrahedron `corners` the point `p` lies, as far as the filter can
-    /// say: four tests at once. On a lattice (see [`with_unit`](Self::with_unit)) it can say it of all.
-    #[inline(always)]
-    pub fn sides_of_facets<R: Registers>(
-        &self,
-        registers: R,
-        corners: [DVec3; 4],
-        p: DVec3,
-    ) -> FourSides {
-        self.check(&corners);
-        self.check(&[p]);
-        let (bound, half_unit) = (self.orient3d, self.half_unit_of_orient3d);
-        lanes::sides_of_facets(registers, corners, p, bound, half_unit)
     }
 
     /// [`lifted::insphere`] for points inside the box.

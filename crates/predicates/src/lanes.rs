@@ -91,7 +91,7 @@ pub struct FourSides {
 }
 
 /// On which side of each facet of the positive tetrahedron `corners` the point `p` lies. `half_unit` is half the least
-/// determinant that is not zero, as in [`InSphereBounds`].
+/// determinant that is not zero, as in [`AcrossBounds`].
 #[inline(always)]
 pub(crate) fn sides_of_facets<R: Registers>(
     registers: R,
@@ -177,49 +177,128 @@ pub(crate) fn insphere_across<R: Registers>(
     opposite: [DVec3; 4],
     p: DVec3,
     at_infinity: AtInfinity,
-    bounds: InSphereBounds,
+    bounds: AcrossBounds,
 ) -> FourVerdicts {
     let corners = differences(registers, corners, p);
-    let lift = determinant::lift(&corners);
-    let [first, second, third] = facets(corners);
     let opposite = differences(registers, opposite, p);
-    let coefficients = determinant::insphere_coefficients(&first, &second, &third, &opposite);
-    let lifts = [
-        &lift.permuted::<FIRST>(),
-        &lift.permuted::<SECOND>(),
-        &lift.permuted::<THIRD>(),
-        &determinant::lift(&opposite),
-    ];
-    let value = determinant::weighted(&coefficients, lifts).four;
-    let (inside, outside) = surely(registers, value, splat(registers, bounds.of_box));
-    let mut verdicts = FourVerdicts { inside, outside };
-    let infinite = at_infinity.lanes();
-    if infinite != 0 {
-        let half_spaces = half_spaces(registers, coefficients, at_infinity, bounds.of_orientations);
-        verdicts.inside = verdicts.inside & !infinite | half_spaces.inside;
-        verdicts.outside = verdicts.outside & !infinite | half_spaces.outside;
+    let neighbors = Neighbors::across(corners, opposite);
+    let value = neighbors.determinant(determinant::lift(&corners), determinant::lift(&opposite));
+    let no_weights = splat(registers, 0.0);
+    neighbors.verdicts(value, [no_weights; 2], at_infinity, bounds)
+}
+
+/// The same for points with weights: whether the lift of `p` lies below the hyperplane through those of the neighbour's vertices. Ties are
+/// not decided, on a lattice neither.
+#[inline(always)]
+pub(crate) fn power_test_across<R: Registers>(
+    registers: R,
+    corners: [(DVec3, f64); 4],
+    opposite: [(DVec3, f64); 4],
+    p: (DVec3, f64),
+    at_infinity: AtInfinity,
+    bounds: AcrossBounds,
+) -> FourVerdicts {
+    let (corners, weights_of_corners) = weighted_differences(registers, corners, p);
+    let (opposite, weights_of_opposite) = weighted_differences(registers, opposite, p);
+    let neighbors = Neighbors::across(corners, opposite);
+    let value = neighbors.determinant(
+        determinant::lift(&corners).sub(&weights_of_corners),
+        determinant::lift(&opposite).sub(&weights_of_opposite),
+    );
+    let weights = [weights_of_corners.four, weights_of_opposite.four];
+    neighbors.verdicts(value, weights, at_infinity, bounds)
+}
+
+/// Four points and their weights, one a lane, minus those of `origin`.
+#[inline(always)]
+fn weighted_differences<R: Registers>(
+    registers: R,
+    [a, b, c, d]: [(DVec3, f64); 4],
+    (origin, weight): (DVec3, f64),
+) -> ([Lanes<R>; 3], Lanes<R>) {
+    let weights = registers.set([a.1, b.1, c.1, d.1]);
+    let four = registers.sub(weights, splat(registers, weight));
+    (
+        differences(registers, [a.0, b.0, c.0, d.0], origin),
+        Lanes { registers, four },
+    )
+}
+
+/// The neighbours of a tetrahedron, lane i for the one opposite corner i, seen from a point.
+struct Neighbors<R: Registers> {
+    /// First to third the corners of the tetrahedron (see [`facets`]), then the vertex opposite.
+    points: [[Lanes<R>; 3]; 4],
+    /// What the lifts of the points are weighted by.
+    coefficients: [Lanes<R>; 4],
+}
+
+impl<R: Registers> Neighbors<R> {
+    #[inline(always)]
+    fn across(corners: [Lanes<R>; 3], opposite: [Lanes<R>; 3]) -> Self {
+        let [first, second, third] = facets(corners);
+        Self {
+            points: [first, second, third, opposite],
+            coefficients: determinant::insphere_coefficients(&first, &second, &third, &opposite),
+        }
     }
-    let undecided = !(verdicts.inside | verdicts.outside | infinite) & 0b1111;
-    if undecided == 0 {
-        return verdicts;
+
+    /// Positive where the origin is inside.
+    #[inline(always)]
+    fn determinant(&self, lift_of_corners: Lanes<R>, lift_of_opposite: Lanes<R>) -> R::Four {
+        let lifts = [
+            &lift_of_corners.permuted::<FIRST>(),
+            &lift_of_corners.permuted::<SECOND>(),
+            &lift_of_corners.permuted::<THIRD>(),
+            &lift_of_opposite,
+        ];
+        determinant::weighted(&self.coefficients, lifts).four
     }
-    let points = [first, second, third, opposite];
-    let mut cospherical = undecided;
-    if bounds.of_box >= bounds.half_unit {
-        let (bound, is_usable) = semi_static_bound(registers, points, bounds);
-        let usable = undecided & is_usable;
-        let (inside, outside) = surely(registers, value, bound);
-        verdicts.inside |= usable & inside;
-        verdicts.outside |= usable & outside;
-        let undecided = usable & !(verdicts.inside | verdicts.outside);
-        cospherical = undecided & registers.greater(splat(registers, bounds.half_unit), bound);
+
+    /// What is sure by the static filter, by the semi-static one, and of ties on a lattice. `weights` are the differences that the
+    /// lifts of the corners and of the opposite vertices take away.
+    #[inline(always)]
+    fn verdicts(
+        &self,
+        value: R::Four,
+        weights: [R::Four; 2],
+        at_infinity: AtInfinity,
+        bounds: AcrossBounds,
+    ) -> FourVerdicts {
+        let Self {
+            points,
+            coefficients,
+        } = *self;
+        let registers = coefficients[0].registers;
+        let (inside, outside) = surely(registers, value, splat(registers, bounds.of_box));
+        let mut verdicts = FourVerdicts { inside, outside };
+        let infinite = at_infinity.lanes();
+        if infinite != 0 {
+            let half_spaces =
+                half_spaces(registers, coefficients, at_infinity, bounds.of_orientations);
+            verdicts.inside = verdicts.inside & !infinite | half_spaces.inside;
+            verdicts.outside = verdicts.outside & !infinite | half_spaces.outside;
+        }
+        let undecided = !(verdicts.inside | verdicts.outside | infinite) & 0b1111;
+        if undecided == 0 {
+            return verdicts;
+        }
+        let mut cospherical = undecided;
+        if bounds.of_box >= bounds.half_unit {
+            let (bound, is_usable) = semi_static_bound(registers, points, weights, bounds);
+            let usable = undecided & is_usable;
+            let (inside, outside) = surely(registers, value, bound);
+            verdicts.inside |= usable & inside;
+            verdicts.outside |= usable & outside;
+            let undecided = usable & !(verdicts.inside | verdicts.outside);
+            cospherical = undecided & registers.greater(splat(registers, bounds.half_unit), bound);
+        }
+        if cospherical != 0 {
+            let inside = insphere_of_cospherical(registers, points, coefficients);
+            verdicts.inside |= cospherical & inside;
+            verdicts.outside |= cospherical & !inside;
+        }
+        verdicts
     }
-    if cospherical != 0 {
-        let inside = insphere_of_cospherical(registers, points, coefficients);
-        verdicts.inside |= cospherical & inside;
-        verdicts.outside |= cospherical & !inside;
-    }
-    verdicts
 }
 
 #[inline(always)]
@@ -269,7 +348,8 @@ fn half_spaces<R: Registers>(
 fn semi_static_bound<R: Registers>(
     registers: R,
     points: [[Lanes<R>; 3]; 4],
-    bounds: InSphereBounds,
+    weights: [R::Four; 2],
+    bounds: AcrossBounds,
 ) -> (R::Four, u8) {
     let x = spread(registers, points, 0);
     let y = spread(registers, points, 1);
@@ -278,9 +358,10 @@ fn semi_static_bound<R: Registers>(
         registers.add(registers.mul(x, x), registers.mul(y, y)),
         registers.mul(z, z),
     );
+    let weight = weight_spread(registers, weights);
     let volume = registers.mul(registers.mul(x, y), z);
     let bound = registers.mul(
-        registers.mul(volume, squares),
+        registers.mul(volume, registers.add(squares, weight)),
         splat(registers, bounds.factor),
     );
     let (least, most) = (
@@ -292,7 +373,8 @@ fn semi_static_bound<R: Registers>(
         & registers.greater(z, least)
         & registers.greater(most, x)
         & registers.greater(most, y)
-        & registers.greater(most, z);
+        & registers.greater(most, z)
+        & registers.greater(splat(registers, bounds.most_weight), weight);
     (bound, is_usable)
 }
 
@@ -308,6 +390,21 @@ fn spread<R: Registers>(
     let c = registers.abs(c[coordinate].four);
     let d = registers.abs(d[coordinate].four);
     registers.max(registers.max(a, b), registers.max(c, d))
+}
+
+/// The largest absolute value of a weight: of the corners, all in one register, and of the opposite vertex.
+#[inline(always)]
+fn weight_spread<R: Registers>(registers: R, [corners, opposite]: [R::Four; 2]) -> R::Four {
+    let corners = registers.abs(corners);
+    let corners = registers.max(
+        corners,
+        registers.permuted::<{ lanes([1, 0, 3, 2]) }>(corners),
+    );
+    let corners = registers.max(
+        corners,
+        registers.permuted::<{ lanes([2, 3, 0, 1]) }>(corners),
+    );
+    registers.max(corners, registers.abs(opposite))
 }
 
 /// Bit i says whether the perturbation (see [`lifted`](crate::lifted)) has the origin inside the sphere of the positive
@@ -375,9 +472,9 @@ impl<R: Registers> Largest<R> {
     }
 }
 
-/// Bounds on the error of the in-sphere determinant.
+/// Bounds on the error of the determinant of in-sphere or power tests.
 #[derive(Clone, Copy)]
-pub(crate) struct InSphereBounds {
+pub(crate) struct AcrossBounds {
     /// For all points of a box.
     pub(crate) of_box: f64,
     /// For their orientation determinant.
@@ -385,9 +482,11 @@ pub(crate) struct InSphereBounds {
     /// Where the points are on a lattice, half the least determinant that is not zero: with a smaller error, one
     /// that may be zero is zero. 0 elsewhere.
     pub(crate) half_unit: f64,
-    /// The bound for a single call is this times X Y Z (X² + Y² + Z²) of its spreads.
+    /// The bound for a single call is this times X Y Z (X² + Y² + Z² + W) of its spreads.
     pub(crate) factor: f64,
     /// Exclusive limits for the spreads.
     pub(crate) least: f64,
     pub(crate) most: f64,
+    /// The same for that of the weights.
+    pub(crate) most_weight: f64,
 }

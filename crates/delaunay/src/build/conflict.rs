@@ -17,6 +17,9 @@ pub(super) trait Query: Copy {
     /// Whether the tetrahedron that contains the point may not be in conflict with it.
     const MAY_BE_HIDDEN: bool;
 
+    /// What a vertex of the kernel asks when it is inserted.
+    fn of_vertex(kernel: &Kernel, vertex: VertexId) -> Self;
+
     fn position(self) -> DVec3;
 
     /// Whether the point lies inside the sphere of a finite tetrahedron, cospherical points being told apart
@@ -37,6 +40,11 @@ pub(super) trait Query: Copy {
 
 impl Query for DVec3 {
     const MAY_BE_HIDDEN: bool = false;
+
+    #[inline(always)]
+    fn of_vertex(kernel: &Kernel, vertex: VertexId) -> Self {
+        kernel.point(vertex)
+    }
 
     #[inline(always)]
     fn position(self) -> DVec3 {

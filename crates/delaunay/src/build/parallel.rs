@@ -17,13 +17,17 @@
 
 use super::{
     blocks::Blocks,
+    conflict::Query,
     kernel::Kernel,
+    weighted::Weighted,
     worker::{Outcome, Worker},
 };
 use crate::Error;
+use glam::DVec3;
 use pellicle_geometry::{Cancelled, Progress, VertexId};
 use pellicle_predicates::lanes::{Registers, Vectorized, vectorized};
 use std::{
+    marker::PhantomData,
     ops::Range,
     sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering::Relaxed},
 };
@@ -247,13 +251,26 @@ impl<'a> Round<'a> {
     }
 
     fn turn<const SHARED: bool>(&self, kernel: &Kernel, index: usize, crew: &mut Crew) {
-        vectorized(Turn::<SHARED> {
+        match kernel.weights.is_empty() {
+            true => self.turn_with::<SHARED, DVec3>(kernel, index, crew),
+            false => self.turn_with::<SHARED, Weighted>(kernel, index, crew),
+        }
+        crew.worker.held.release(&kernel.blocks);
+    }
+
+    fn turn_with<const SHARED: bool, Q: Query>(
+        &self,
+        kernel: &Kernel,
+        index: usize,
+        crew: &mut Crew,
+    ) {
+        vectorized(Turn::<SHARED, Q> {
             round: self,
             kernel,
             index,
             crew,
+            query: PhantomData,
         });
-        crew.worker.held.release(&kernel.blocks);
     }
 
     /// A chunk of the worker's own stretch; when that is done, it is given half of what another has left.
@@ -278,14 +295,16 @@ impl<'a> Round<'a> {
 }
 
 /// What one thread does in a round.
-struct Turn<'a, const SHARED: bool> {
+struct Turn<'a, const SHARED: bool, Q> {
     round: &'a Round<'a>,
     kernel: &'a Kernel,
     index: usize,
     crew: &'a mut Crew,
+    /// What the points ask.
+    query: PhantomData<Q>,
 }
 
-impl<const SHARED: bool> Vectorized for Turn<'_, SHARED> {
+impl<const SHARED: bool, Q: Query> Vectorized for Turn<'_, SHARED, Q> {
     type Output = ();
 
     #[inline(always)]
@@ -295,6 +314,7 @@ impl<const SHARED: bool> Vectorized for Turn<'_, SHARED> {
             kernel,
             index,
             crew,
+            query: _,
         } = self;
         let mut pending = std::mem::take(&mut crew.postponed);
         let mut attempts = 0;
@@ -305,14 +325,8 @@ impl<const SHARED: bool> Vectorized for Turn<'_, SHARED> {
                 if SHARED {
                     worker.held.yield_if_wanted(&kernel.blocks);
                 }
-                let outcome = match kernel.weights.is_empty() {
-                    true => {
-                        let point = kernel.point(vertex);
-                        worker.insert::<SHARED, R, _>(registers, kernel, vertex, point)
-                    }
-                    false => worker.insert_weighted::<SHARED, R>(registers, kernel, vertex),
-                };
-                match outcome {
+                let query = Q::of_vertex(kernel, vertex);
+                match worker.insert::<SHARED, R, Q>(registers, kernel, vertex, query) {
                     Outcome::Inserted | Outcome::Hidden => {}
                     Outcome::Contended => crew.postponed.push(vertex),
                     Outcome::Full => {

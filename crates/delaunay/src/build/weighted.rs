@@ -9,11 +9,7 @@
 //! the hyperplanes on both sides of it have the same height there: both are in conflict or neither is. So no flat
 //! tetrahedron comes up, and the point may be the position of a vertex that it hides.
 
-use super::{
-    conflict::Query,
-    kernel::Kernel,
-    worker::{Outcome, Worker},
-};
+use super::{cells::four, conflict::Query, kernel::Kernel};
 use crate::Error;
 use pellicle_geometry::{DVec3, VertexId};
 use pellicle_predicates::{
@@ -24,12 +20,20 @@ use pellicle_predicates::{
 /// A point with a weight, in a kernel whose vertices have weights.
 #[derive(Clone, Copy)]
 pub(super) struct Weighted {
-    pub(super) position: DVec3,
-    pub(super) weight: f64,
+    position: DVec3,
+    weight: f64,
 }
 
 impl Query for Weighted {
     const MAY_BE_HIDDEN: bool = true;
+
+    #[inline(always)]
+    fn of_vertex(kernel: &Kernel, vertex: VertexId) -> Self {
+        Self {
+            position: kernel.point(vertex),
+            weight: kernel.weights[vertex.index()],
+        }
+    }
 
     #[inline(always)]
     fn position(self) -> DVec3 {
@@ -47,34 +51,21 @@ impl Query for Weighted {
         sign == Sign::Positive
     }
 
-    /// One by one is fast enough.
     #[inline(always)]
     fn is_inside_across<R: Registers>(
         self,
-        _registers: R,
-        _kernel: &Kernel,
-        _corners: [VertexId; 4],
-        _opposite: [VertexId; 4],
-        _: AtInfinity,
-    ) -> FourVerdicts {
-        FourVerdicts::default()
-    }
-}
-
-impl Worker {
-    /// Inserts a point with its weight.
-    #[inline(never)]
-    pub(super) fn insert_weighted<const SHARED: bool, R: Registers>(
-        &mut self,
         registers: R,
         kernel: &Kernel,
-        vertex: VertexId,
-    ) -> Outcome {
-        let weighted = Weighted {
-            position: kernel.point(vertex),
-            weight: kernel.weights[vertex.index()],
-        };
-        self.insert::<SHARED, R, _>(registers, kernel, vertex, weighted)
+        corners: [VertexId; 4],
+        opposite: [VertexId; 4],
+        at_infinity: AtInfinity,
+    ) -> FourVerdicts {
+        let weighted = |v: VertexId| (kernel.point(v), kernel.weights[v.index()]);
+        let corners = four(|i| weighted(corners[i]));
+        let opposite = four(|i| weighted(opposite[i]));
+        let point = (self.position, self.weight);
+        let filter = &kernel.filter;
+        filter.power_test_across(registers, corners, opposite, point, at_infinity)
     }
 }
 

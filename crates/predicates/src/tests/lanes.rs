@@ -2,12 +2,12 @@
 
 use super::{
     config,
-    inputs::{points, space},
+    inputs::{points, space, weighted_points},
 };
 use crate::{
     Sign, StaticFilter, insphere,
     lanes::{AtInfinity, FourSides, FourVerdicts, Plain, Registers, Vectorized, vectorized},
-    lifted, orient3d,
+    lifted, orient3d, power_test,
 };
 use glam::DVec3;
 use proptest::prelude::*;
@@ -36,6 +36,30 @@ impl Vectorized for Across {
             at_infinity,
         } = self;
         filter.insphere_across(registers, corners, opposite, p, at_infinity)
+    }
+}
+
+struct PowerAcross {
+    filter: StaticFilter,
+    corners: [(DVec3, f64); 4],
+    opposite: [(DVec3, f64); 4],
+    p: (DVec3, f64),
+    at_infinity: AtInfinity,
+}
+
+impl Vectorized for PowerAcross {
+    type Output = FourVerdicts;
+
+    #[inline(always)]
+    fn run<R: Registers>(self, registers: R) -> FourVerdicts {
+        let Self {
+            filter,
+            corners,
+            opposite,
+            p,
+            at_infinity,
+        } = self;
+        filter.power_test_across(registers, corners, opposite, p, at_infinity)
     }
 }
 
@@ -89,6 +113,22 @@ fn filter(points: &[DVec3]) -> StaticFilter {
     StaticFilter::from_bounds(min.expect("points"), max.expect("points")).with_unit(unit(points))
 }
 
+/// Whether `p` is beyond the hull facet of the neighbour in lane `i`, if that has the vertex at infinity.
+fn beyond_hull(
+    at_infinity: AtInfinity,
+    i: usize,
+    [x, y, z, opposite]: [DVec3; 4],
+    p: DVec3,
+) -> Option<Sign> {
+    // Corner 3 is the first vertex in lanes 0 and 2 and the third in lane 1; opposite vertices are the fourth.
+    match (at_infinity.corner, i) {
+        (true, 3) => None,
+        (true, 1) => Some(-orient3d(x, y, opposite, p)),
+        (true, _) => Some(-orient3d(y, z, opposite, p)),
+        (false, _) => (at_infinity.opposite >> i & 1 == 1).then(|| orient3d(x, y, z, p)),
+    }
+}
+
 proptest! {
     #![proptest_config(config())]
 
@@ -113,13 +153,7 @@ proptest! {
         for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
             let [x, y, z] = neighbor.map(|corner| corners[corner]);
             let bit = |set: u8| set >> i & 1 == 1;
-            if at_infinity.corner && i != 3 || bit(at_infinity.opposite) {
-                // Corner 3 is the first vertex in lanes 0 and 2 and the third in lane 1; opposite vertices are the fourth.
-                let truth = match (at_infinity.corner, i) {
-                    (true, 1) => -orient3d(x, y, opposite[i], e),
-                    (true, _) => -orient3d(y, z, opposite[i], e),
-                    (false, _) => orient3d(x, y, z, e),
-                };
+            if let Some(truth) = beyond_hull(at_infinity, i, [x, y, z, opposite[i]], e) {
                 prop_assert!(!bit(verdicts.inside) || truth == Sign::Positive);
                 prop_assert!(!bit(verdicts.outside) || truth == Sign::Negative);
                 continue;
@@ -135,6 +169,81 @@ proptest! {
                 Sign::Zero => lifted::insphere(x, y, z, opposite[i], e),
                 sign => sign,
             };
+            prop_assert!(!bit(verdicts.inside) || truth == Sign::Positive);
+            prop_assert!(!bit(verdicts.outside) || truth == Sign::Negative);
+        }
+    }
+
+    #[test]
+    fn four_verdicts_on_weighted_points_are_right_and_the_same_on_all_registers(
+        (five, weights) in weighted_points(),
+        others in points(),
+        other_weight in prop_oneof![-1.0..1.0, any::<f64>().prop_filter("finite", |w| w.is_finite())],
+        lane in 0..4_usize,
+        at_infinity in at_infinity(),
+    ) {
+        let [a, b, c, d, e] = five;
+        let [wa, wb, wc, wd, we] = weights;
+        let q = others[0];
+        let mut corners = [(a, wa), (b, wb), (c, wc), (a, wa)];
+        corners[3] = corners[lane];
+        corners[lane] = (q, other_weight);
+        let opposite = [(d, wd); 4];
+        let all = [wa, wb, wc, wd, we, other_weight];
+        let least = all.iter().copied().fold(f64::INFINITY, f64::min);
+        let greatest = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let filter = filter(&[a, b, c, d, e, q]).with_weights(least, greatest);
+        let p = (e, we);
+        let across = || PowerAcross { filter, corners, opposite, p, at_infinity };
+        let verdicts = vectorized(across());
+        prop_assert_eq!(verdicts, across().run(Plain));
+        for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
+            let [x, y, z] = neighbor.map(|corner| corners[corner]);
+            let vertices = [x, y, z, opposite[i]];
+            let truth = beyond_hull(at_infinity, i, vertices.map(|(point, _)| point), e)
+                .unwrap_or_else(|| {
+                    let weights = [x.1, y.1, z.1, opposite[i].1, we];
+                    power_test(x.0, y.0, z.0, opposite[i].0, e, weights)
+                });
+            let bit = |set: u8| set >> i & 1 == 1;
+            prop_assert!(!bit(verdicts.inside) || truth == Sign::Positive);
+            prop_assert!(!bit(verdicts.outside) || truth == Sign::Negative);
+        }
+    }
+
+    /// The heavy vertex is weighted by the volume of the others, which is nothing but a rounding.
+    #[test]
+    fn one_heavy_vertex_has_its_part_in_the_bound(
+        points in proptest::array::uniform5(proptest::array::uniform3(-1.0..1.0)),
+        share in [0.0..1.0, 0.0..1.0],
+        heavy in 0..8_usize,
+        exponent in -10..100_i32,
+    ) {
+        let [a, b, c, q, d] = points.map(DVec3::from_array);
+        let p = a + share[0] * (b - a) + share[1] * (c - a);
+        // The neighbour opposite corner 3 has a, b, c, which p is coplanar with, and the fourth vertex.
+        let mut corners = [a, b, c, q].map(|p| (p, 0.0));
+        let mut opposite = [d; 4].map(|p| (p, 0.0));
+        let weight = 2_f64.powi(exponent);
+        match heavy {
+            0..4 => corners[heavy].1 = weight,
+            _ => opposite[heavy - 4].1 = weight,
+        }
+        let filter = filter(&[a, b, c, q, d, p]).with_weights(0.0, weight);
+        let across = || PowerAcross {
+            filter,
+            corners,
+            opposite,
+            p: (p, 0.0),
+            at_infinity: AtInfinity::default(),
+        };
+        let verdicts = vectorized(across());
+        prop_assert_eq!(verdicts, across().run(Plain));
+        for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
+            let [x, y, z] = neighbor.map(|corner| corners[corner]);
+            let o = opposite[i];
+            let truth = power_test(x.0, y.0, z.0, o.0, p, [x.1, y.1, z.1, o.1, 0.0]);
+            let bit = |set: u8| set >> i & 1 == 1;
             prop_assert!(!bit(verdicts.inside) || truth == Sign::Positive);
             prop_assert!(!bit(verdicts.outside) || truth == Sign::Negative);
         }
