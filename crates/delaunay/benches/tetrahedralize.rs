@@ -7,12 +7,14 @@
 #[path = "../examples/common/mod.rs"]
 mod common;
 
-use common::inputs::{KINDS, input};
+use common::inputs::{KINDS, input, weights};
 use criterion::{
     BatchSize, BenchmarkGroup, Criterion, Throughput, criterion_group, criterion_main,
     measurement::WallTime,
 };
-use pellicle_delaunay::{DynamicTetrahedralization, Options, tetrahedralize};
+use pellicle_delaunay::{
+    DynamicTetrahedralization, Options, tetrahedralize, tetrahedralize_weighted,
+};
 use pellicle_geometry::DVec3;
 use pellicle_spatial::brio;
 use std::hint::black_box;
@@ -32,9 +34,18 @@ fn by_kind(criterion: &mut Criterion) {
             bencher.iter(|| brio::order(black_box(&points)));
         });
         group.bench_function("tetrahedralize", |bencher| {
-            bencher.iter(|| tetrahedralize(black_box(&points), &Options::default()).map(drop));
+            let options = Options::default();
+            let points = black_box(&points);
+            match weights(kind, COUNT) {
+                None => bencher.iter(|| tetrahedralize(points, &options).map(drop)),
+                Some(weights) => {
+                    bencher.iter(|| tetrahedralize_weighted(points, &weights, &options).map(drop))
+                }
+            }
         });
-        stepwise(&mut group, &points);
+        if weights(kind, COUNT).is_none() {
+            stepwise(&mut group, &points);
+        }
         group.finish();
     }
 }

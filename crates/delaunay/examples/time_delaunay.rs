@@ -5,6 +5,7 @@
 //! `cpu=2.610 wall=2.612 points=1000000 tetrahedra=6748359 held=25460736 peak=280510464`.
 //!
 //! * `--threads N`: in a pool of N threads; otherwise in the pool of all cores.
+//! * `--weights FILE`: the weights, as little-endian doubles: reads those of `file`, writes those of `weighted`.
 //! * `--points FILE`: writes the coordinates as little-endian doubles, for other programs, or as `file FILE`, to read.
 //! * `--dump FILE`: writes the set of tetrahedra, four sorted `u32` ids each, sorted.
 //! * `--identical N,…`: tetrahedralises with N threads too, and fails where anything is not the same, bit for bit.
@@ -12,8 +13,11 @@
 mod common;
 
 use common::{Arguments, Outcome, memory, spent, with_threads};
-use pellicle_delaunay::{Error, Options, Tetrahedralization, tetrahedralize};
-use pellicle_geometry::DVec3;
+use pellicle_delaunay::{
+    Error, FacetId, Options, RegularTetrahedralization, Tetrahedralization, tetrahedralize,
+    tetrahedralize_weighted,
+};
+use pellicle_geometry::{DVec3, VertexId};
 use std::{fs, path::Path, time::Instant};
 
 fn main() -> Outcome {
@@ -22,15 +26,17 @@ fn main() -> Outcome {
     if let Some(file) = arguments.option("--points") {
         common::write(Path::new(file), &points)?;
     }
+    let weights = arguments.weights(&points)?;
+    let weights = weights.as_deref();
     let threads = arguments.option("--threads").map(str::parse).transpose()?;
-    let (result, line) = with_threads(threads, || timed(&points))?;
+    let (result, line) = with_threads(threads, || timed(&points, weights))?;
     let tetrahedralization = result?;
     println!("{line}");
     if let Some(file) = arguments.option("--dump") {
         fs::write(file, sorted_set(&tetrahedralization))?;
     }
     for threads in arguments.numbers("--identical")? {
-        let other = with_threads(Some(threads), || measured_call(&points))??;
+        let other = with_threads(Some(threads), || measured_call(&points, weights))??;
         if !is_identical(&tetrahedralization, &other) {
             return Err(format!("another result with {threads} threads").into());
         }
@@ -40,10 +46,10 @@ fn main() -> Outcome {
 }
 
 /// The result, and the line about it.
-fn timed(points: &[DVec3]) -> (Result<Tetrahedralization<'_>, Error>, String) {
+fn timed<'a>(points: &'a [DVec3], weights: Option<&'a [f64]>) -> (Result<Made<'a>, Error>, String) {
     let held = memory("VmRSS").unwrap_or(0);
     let (wall, cpu) = (Instant::now(), spent());
-    let result = measured_call(points);
+    let result = measured_call(points, weights);
     let wall = wall.elapsed();
     let cpu = spent()
         .zip(cpu)
@@ -53,7 +59,7 @@ fn timed(points: &[DVec3]) -> (Result<Tetrahedralization<'_>, Error>, String) {
         cpu.as_secs_f64(),
         wall.as_secs_f64(),
         points.len(),
-        result.as_ref().map_or(0, Tetrahedralization::finite_count),
+        result.as_ref().map_or(0, Made::finite_count),
         memory("VmHWM").unwrap_or(0),
     );
     (result, line)
@@ -61,20 +67,67 @@ fn timed(points: &[DVec3]) -> (Result<Tetrahedralization<'_>, Error>, String) {
 
 /// A function of its own, so that a profiler may count what happens inside of it alone.
 #[inline(never)]
-fn measured_call(points: &[DVec3]) -> Result<Tetrahedralization<'_>, Error> {
-    tetrahedralize(points, &Options::default())
+fn measured_call<'a>(points: &'a [DVec3], weights: Option<&'a [f64]>) -> Result<Made<'a>, Error> {
+    let options = Options::default();
+    match weights {
+        None => tetrahedralize(points, &options).map(Made::Delaunay),
+        Some(weights) => tetrahedralize_weighted(points, weights, &options).map(Made::Regular),
+    }
 }
 
-fn is_identical(one: &Tetrahedralization, other: &Tetrahedralization) -> bool {
+/// What is made of points, and of points with weights.
+enum Made<'a> {
+    Delaunay(Tetrahedralization<'a>),
+    Regular(RegularTetrahedralization<'a>),
+}
+
+impl Made<'_> {
+    fn tets(&self) -> &[[VertexId; 4]] {
+        match self {
+            Self::Delaunay(made) => made.tets(),
+            Self::Regular(made) => made.tets(),
+        }
+    }
+
+    fn twins(&self) -> &[[FacetId; 4]] {
+        match self {
+            Self::Delaunay(made) => made.twins(),
+            Self::Regular(made) => made.twins(),
+        }
+    }
+
+    fn finite_count(&self) -> usize {
+        match self {
+            Self::Delaunay(made) => made.finite_count(),
+            Self::Regular(made) => made.finite_count(),
+        }
+    }
+
+    fn duplicates(&self) -> &[(VertexId, VertexId)] {
+        match self {
+            Self::Delaunay(made) => made.duplicates(),
+            Self::Regular(made) => made.duplicates(),
+        }
+    }
+
+    fn hidden(&self) -> &[VertexId] {
+        match self {
+            Self::Delaunay(_) => &[],
+            Self::Regular(made) => made.hidden(),
+        }
+    }
+}
+
+fn is_identical(one: &Made, other: &Made) -> bool {
     one.tets() == other.tets()
         && one.twins() == other.twins()
         && one.finite_count() == other.finite_count()
         && one.duplicates() == other.duplicates()
+        && one.hidden() == other.hidden()
 }
 
-fn sorted_set(tetrahedralization: &Tetrahedralization) -> Vec<u8> {
-    let mut tets: Vec<[u32; 4]> = tetrahedralization
-        .finite_tets()
+fn sorted_set(tetrahedralization: &Made) -> Vec<u8> {
+    let mut tets: Vec<[u32; 4]> = tetrahedralization.tets()[..tetrahedralization.finite_count()]
         .iter()
         .map(|tet| {
             let mut corners = tet.map(|v| v.0);

@@ -3,7 +3,7 @@
 use pellicle_geometry::DVec3;
 
 /// What [`input`] can make.
-pub const KINDS: [&str; 5] = ["uniform", "sphere", "torus", "grid", "rounded"];
+pub const KINDS: [&str; 6] = ["uniform", "sphere", "torus", "grid", "rounded", "weighted"];
 
 /// `count` points of a kind, the same in every run; `None` for a kind that is not in [`KINDS`].
 ///
@@ -11,11 +11,12 @@ pub const KINDS: [&str; 5] = ["uniform", "sphere", "torus", "grid", "rounded"];
 /// * `sphere`: on a bumpy sphere, r = 1 + sin 5x sin 5y sin 5z / 10 over uniform directions;
 /// * `torus`: R = 1, r = 0.4, uniform in area;
 /// * `grid`: the integer points of a cube, shuffled; the cube nearest to `count`;
-/// * `rounded`: on a sphere of radius 1000, rounded to integers, so that many are cospherical and some equal.
+/// * `rounded`: on a sphere of radius 1000, rounded to integers, so that many are cospherical and some equal;
+/// * `weighted`: in the unit cube, with [`weights`].
 pub fn input(kind: &str, count: usize) -> Option<Vec<DVec3>> {
     let mut random = SplitMix(12345 + count as u64);
     let points = match kind {
-        "uniform" => (0..count).map(|_| random.in_cube()).collect(),
+        "uniform" | "weighted" => (0..count).map(|_| random.in_cube()).collect(),
         "sphere" => (0..count)
             .map(|_| {
                 let d = random.direction();
@@ -44,6 +45,18 @@ pub fn input(kind: &str, count: usize) -> Option<Vec<DVec3>> {
         _ => return None,
     };
     Some(points)
+}
+
+/// The weights of `count` points of a kind, for a kind that has them: the squares of radii, up to the edge of the cube that
+/// each point would have to itself. About eight points in a hundred are hidden.
+pub fn weights(kind: &str, count: usize) -> Option<Vec<f64>> {
+    if kind != "weighted" {
+        return None;
+    }
+    let mut random = SplitMix(54321 + count as u64);
+    let edge = (count as f64).cbrt().recip();
+    let mut weight = || (random.unit() * edge).powi(2);
+    Some((0..count).map(|_| weight()).collect())
 }
 
 /// The SplitMix64 generator.

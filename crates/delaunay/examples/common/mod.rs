@@ -52,6 +52,40 @@ impl Arguments {
             _ => Err("KIND COUNT, or file PATH, is wanted".into()),
         }
     }
+
+    /// The weights of these points, if they have some: a file's are in the file of the option `--weights`, which those of a kind are
+    /// written to.
+    pub fn weights(&self, points: &[DVec3]) -> Outcome<Option<Vec<f64>>> {
+        let path = self.option("--weights").map(Path::new);
+        if self.word(0) == Some("file") {
+            return Ok(path.map(read_weights).transpose()?);
+        }
+        let weights = self
+            .word(0)
+            .and_then(|kind| inputs::weights(kind, points.len()));
+        if let Some((path, weights)) = path.zip(weights.as_deref()) {
+            write_weights(path, weights)?;
+        }
+        Ok(weights)
+    }
+}
+
+/// Weights as little-endian doubles.
+pub fn read_weights(path: &Path) -> io::Result<Vec<f64>> {
+    let mut file = io::BufReader::new(fs::File::open(path)?);
+    let count = file.get_ref().metadata()?.len() / 8;
+    let mut weight = [0; 8];
+    let mut read = || {
+        file.read_exact(&mut weight)?;
+        Ok(f64::from_le_bytes(weight))
+    };
+    (0..count).map(|_| read()).collect()
+}
+
+/// Writes weights so that [`read_weights`] reads them.
+pub fn write_weights(path: &Path, weights: &[f64]) -> io::Result<()> {
+    let bytes: Vec<u8> = weights.iter().flat_map(|w| w.to_le_bytes()).collect();
+    fs::write(path, bytes)
 }
 
 /// Points as little-endian doubles, three each.

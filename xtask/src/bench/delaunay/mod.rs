@@ -23,11 +23,11 @@ use arguments::Arguments;
 use programs::{Program, Programs};
 use record::{Compared, Record};
 use runs::{Run, Runs};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
 /// The inputs without arguments.
-const INPUTS: [&str; 8] = [
+const INPUTS: [&str; 9] = [
     "uniform:100000",
     "uniform:1000000",
     "uniform:4000000",
@@ -36,16 +36,22 @@ const INPUTS: [&str; 8] = [
     "torus:1000000",
     "grid:1000000",
     "rounded:200000",
+    "weighted:1000000",
 ];
 
 /// The inputs of `--quick`: a look that takes a minute or two.
-const QUICK: [&str; 5] = [
+const QUICK: [&str; 6] = [
     "uniform:100000",
     "sphere:100000",
     "torus:20000",
     "grid:27000",
     "rounded:50000",
+    "weighted:50000",
 ];
+
+/// The kind of points that have weights: of them a regular tetrahedralisation is made, and the exact checker of Delaunay's, which
+/// does not know of weights, has no say.
+const WEIGHTED: &str = "weighted";
 
 /// Other programs run on so many points at most; beyond, memory and patience end.
 const MOST_FOR_PEERS: u64 = 5_000_000;
@@ -93,6 +99,8 @@ fn compare(programs: &Programs, input: &str, arguments: &Arguments) -> Result<Co
         .ok_or_else(|| format!("{input}: KIND:COUNT or file:PATH is wanted"))?;
     let path = |name: &str| programs.scratch.join(name);
     let points = path("points");
+    let weights = (kind == WEIGHTED).then(|| path("weights"));
+    let weights = weights.as_deref();
     // A file's folders are nobody else's business.
     let name = count.rsplit(['/', '\\']).next().unwrap_or(count);
     let mut compared = Compared::of(&format!("{kind}:{name}"));
@@ -100,9 +108,11 @@ fn compare(programs: &Programs, input: &str, arguments: &Arguments) -> Result<Co
     // 1. The points, and what comes of them with one thread and with several.
     let others: Vec<String> = [1, 2, 3, 4].map(|n: usize| n.to_string()).into();
     let ours = path("ours");
+    let mut files = vec![("--points", &*points), ("--dump", &*ours)];
+    files.extend(weights.map(|weights| ("--weights", weights)));
     let made = programs.ours(
         &[kind, count, "--threads", "1"],
-        &[("--points", &points), ("--dump", &ours)],
+        &files,
         &[("--identical", &others[1..].join(","))],
     )?;
     let first = Run::read(&made)?;
@@ -112,8 +122,11 @@ fn compare(programs: &Programs, input: &str, arguments: &Arguments) -> Result<Co
     let peers = first.points <= MOST_FOR_PEERS;
     if let Some(cgal) = programs.cgal.as_ref().filter(|_| peers) {
         let theirs = path("cgal");
-        let words = [points.to_string_lossy(), theirs.to_string_lossy()];
-        measured::run(cgal, &[&words[0], &words[1]])?;
+        let option = weights.map(|weights| [Path::new("--weights"), weights]);
+        let words = option.into_iter().flatten().chain([&*points, &*theirs]);
+        let words: Vec<_> = words.map(Path::to_string_lossy).collect();
+        let words: Vec<&str> = words.iter().map(|word| &**word).collect();
+        measured::run(cgal, &words)?;
         let difference = sets::compare(&points, &ours, &theirs)?;
         if !difference.is_empty() {
             eprintln!("{input}: {difference:?}");
@@ -124,7 +137,7 @@ fn compare(programs: &Programs, input: &str, arguments: &Arguments) -> Result<Co
     remove(&ours);
 
     // 3. The exact checker.
-    if first.points <= MOST_FOR_CHECKER && arguments.check {
+    if first.points <= MOST_FOR_CHECKER && arguments.check && weights.is_none() {
         compared.checked = Some(match programs.check(&points) {
             Ok(text) => {
                 eprint!("{text}");
@@ -142,14 +155,23 @@ fn compare(programs: &Programs, input: &str, arguments: &Arguments) -> Result<Co
         .timed
         .iter()
         .filter(|program| peers || program.is_ours)
+        .filter(|program| weights.is_none() || program.weighs)
         .collect();
-    compared.runs = in_turns(&runnable, &points, arguments.rounds);
+    compared.runs = in_turns(&runnable, &points, weights, arguments.rounds);
     remove(&points);
+    if let Some(weights) = weights {
+        remove(weights);
+    }
     Ok(compared)
 }
 
 /// A B C A B C …; a program that fails once is left out from then on.
-fn in_turns(programs: &[&Program], points: &Path, rounds: usize) -> Vec<Runs> {
+fn in_turns(
+    programs: &[&Program],
+    points: &Path,
+    weights: Option<&Path>,
+    rounds: usize,
+) -> Vec<Runs> {
     let mut all: Vec<Runs> = programs.iter().map(|program| program.no_runs()).collect();
     for _ in 0..rounds {
         for (program, runs) in programs.iter().zip(&mut all) {
@@ -157,7 +179,7 @@ fn in_turns(programs: &[&Program], points: &Path, rounds: usize) -> Vec<Runs> {
                 continue;
             }
             let run = program
-                .run(points, LIMIT)
+                .run(points, weights, LIMIT)
                 .and_then(|made| Ok((Run::read(&made.output)?, made.peak_bytes)));
             match run {
                 Ok((run, peak)) => runs.add(&run, peak),
@@ -172,6 +194,6 @@ fn in_turns(programs: &[&Program], points: &Path, rounds: usize) -> Vec<Runs> {
 }
 
 /// Removes a file that may be large; if that fails, the next input overwrites it.
-fn remove(file: &PathBuf) {
+fn remove(file: &Path) {
     let _ = std::fs::remove_file(file);
 }

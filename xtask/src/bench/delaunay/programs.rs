@@ -13,24 +13,41 @@ pub const OURS: &str = "Pellicle";
 /// The word in a program's arguments that stands for the file of points.
 const POINTS: &str = "POINTS";
 
+/// The word that stands for the option of a file of weights, or for nothing.
+const WEIGHTS: &str = "WEIGHTS";
+
 /// A program that is timed: it reads a file of points and prints a line for [`super::runs::Run::read`].
 pub struct Program {
     /// Without the threads.
     pub name: &'static str,
     pub threads: usize,
     pub is_ours: bool,
+    /// Whether it knows points with weights.
+    pub weighs: bool,
     program: PathBuf,
     words: Vec<String>,
 }
 
 impl Program {
-    /// Runs it on the points of this file.
-    pub fn run(&self, points: &Path, limit: Duration) -> Result<Measured, String> {
+    /// Runs it on the points of this file, with the weights of the other.
+    pub fn run(
+        &self,
+        points: &Path,
+        weights: Option<&Path>,
+        limit: Duration,
+    ) -> Result<Measured, String> {
         let points = points.to_string_lossy();
+        let weights = weights.map(Path::to_string_lossy);
+        let weights = weights.as_deref().map(|weights| ["--weights", weights]);
         let words: Vec<&str> = self
             .words
             .iter()
-            .map(|word| if word == POINTS { &*points } else { word })
+            .flat_map(|word| match (word.as_str(), weights) {
+                (POINTS, _) => vec![&*points],
+                (WEIGHTS, Some(words)) => words.into(),
+                (WEIGHTS, None) => Vec::new(),
+                (word, _) => vec![word],
+            })
             .collect();
         measured::run_within(limit, &[], &self.program, &words)
     }
@@ -94,7 +111,7 @@ impl Programs {
     pub fn ours(
         &self,
         words: &[&str],
-        files: &[(&str, &PathBuf)],
+        files: &[(&str, &Path)],
         others: &[(&str, &str)],
     ) -> Result<String, String> {
         let mut all: Vec<String> = words.iter().map(|word| (*word).to_owned()).collect();
@@ -127,15 +144,16 @@ impl Programs {
         match cgal_program(root, &self.scratch) {
             Ok((program, version)) => {
                 self.about.push(format!(
-                    "CGAL {version}: Delaunay_triangulation_3, exact predicates and inexact constructions, -O3, one thread"
+                    "CGAL {version}: Delaunay_triangulation_3 and Regular_triangulation_3, exact predicates and inexact constructions, -O3, one thread"
                 ));
                 self.cgal = Some(program.clone());
                 self.timed.push(Program {
                     name: "CGAL",
                     threads: 1,
                     is_ours: false,
+                    weighs: true,
                     program,
-                    words: vec![POINTS.into()],
+                    words: [WEIGHTS, POINTS].map(str::to_owned).into(),
                 });
             }
             Err(reason) => self.missing("CGAL", &reason),
@@ -171,6 +189,7 @@ impl Programs {
                     name,
                     threads,
                     is_ours: false,
+                    weighs: false,
                     program: python.clone(),
                     words: vec![script.clone(), POINTS.into(), threads.to_string()],
                 });
@@ -180,11 +199,12 @@ impl Programs {
 }
 
 fn our_program(program: PathBuf, threads: usize) -> Program {
-    let words = ["file", POINTS, "--threads", &threads.to_string()];
+    let words = ["file", POINTS, WEIGHTS, "--threads", &threads.to_string()];
     Program {
         name: OURS,
         threads,
         is_ours: true,
+        weighs: true,
         program,
         words: words.map(str::to_owned).into(),
     }
