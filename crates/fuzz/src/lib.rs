@@ -5,7 +5,7 @@ mod points;
 
 pub use pellicle_io::Format;
 use pellicle_io::{Data, ReadOptions, read_from};
-pub use points::{check_dynamic, check_tetrahedralize};
+pub use points::{check_dynamic, check_regular, check_tetrahedralize};
 use std::io::Cursor;
 
 /// Reads the bytes; an error is fine, a panic is not, and what is read must be sound.

@@ -1,7 +1,8 @@
 //! Bytes as points: many equal, many in degenerate position, or anything at all.
 
 use pellicle_delaunay::{
-    DynamicTetrahedralization, Error, Options, Tetrahedralization, tetrahedralize,
+    DynamicTetrahedralization, Error, Options, RegularTetrahedralization, Tetrahedralization,
+    tetrahedralize, tetrahedralize_weighted,
 };
 use pellicle_geometry::{DVec3, VertexId};
 
@@ -110,6 +111,7 @@ pub fn check_tetrahedralize(bytes: &[u8]) {
     match (result, other) {
         (Ok(one), Ok(other)) => {
             assert_sound(&one);
+            let by_place = |made: &Tetrahedralization| by_place(made.tets(), made.points());
             assert_eq!(by_place(&one), by_place(&other));
             assert_eq!(one.twins(), other.twins());
         }
@@ -127,15 +129,72 @@ fn assert_sound(tetrahedralization: &Tetrahedralization) {
     }
 }
 
-fn by_place(tetrahedralization: &Tetrahedralization) -> Vec<[Option<[u64; 3]>; 4]> {
-    let points = tetrahedralization.points();
-    let bits = |v: VertexId| {
-        (points[v.index()] + DVec3::ZERO)
-            .to_array()
-            .map(f64::to_bits)
+fn bits(point: DVec3) -> [u64; 3] {
+    (point + DVec3::ZERO).to_array().map(f64::to_bits)
+}
+
+fn by_place(tets: &[[VertexId; 4]], points: &[DVec3]) -> Vec<[Option<[u64; 3]>; 4]> {
+    let place = |v: VertexId| v.some().map(|v| bits(points[v.index()]));
+    tets.iter().map(|tet| tet.map(place)).collect()
+}
+
+/// The same of points with weights.
+///
+/// The first byte says how many of the others are weights, the second how those are to be read.
+pub fn check_regular(bytes: &[u8]) {
+    let Some((&split, bytes)) = bytes.split_first() else {
+        return;
     };
-    let tets = tetrahedralization.tets().iter();
-    tets.map(|tet| tet.map(|v| v.some().map(bits))).collect()
+    let (weights, bytes) = bytes.split_at(usize::from(split).min(bytes.len()));
+    let points = points(bytes);
+    let weights: Vec<f64> = weights_of(weights).take(points.len()).collect();
+    let reversed: Vec<DVec3> = points.iter().rev().copied().collect();
+    let reversed_weights: Vec<f64> = weights.iter().rev().copied().collect();
+    let options = Options::default();
+    let result = tetrahedralize_weighted(&points, &weights, &options);
+    let other = tetrahedralize_weighted(&reversed, &reversed_weights, &options);
+    match (result, other) {
+        (Ok(one), Ok(other)) => {
+            assert_eq!(one.validate(), []);
+            if points.len() <= FEW {
+                assert_eq!(one.validate_globally(), []);
+            }
+            let by_place = |made: &RegularTetrahedralization| by_place(made.tets(), made.points());
+            assert_eq!(by_place(&one), by_place(&other));
+            assert_eq!(one.twins(), other.twins());
+            assert_eq!(hidden(&one), hidden(&other));
+        }
+        (Err(Error::NotFinite { vertex }), Err(Error::NotFinite { .. })) => {
+            assert!(!points[vertex.index()].is_finite());
+        }
+        (Err(Error::WeightNotFinite { vertex }), Err(Error::WeightNotFinite { .. })) => {
+            assert!(!weights[vertex.index()].is_finite());
+        }
+        (one, other) => assert_eq!(one.err(), other.err()),
+    }
+}
+
+/// Weights without end: those that the bytes say, then zeros.
+fn weights_of(bytes: &[u8]) -> impl Iterator<Item = f64> {
+    let (scheme, bytes) = bytes.split_first().unwrap_or((&0, &[]));
+    let weights: Vec<f64> = match scheme % 4 {
+        // As coordinates are: many points exactly on others' spheres.
+        0 => chunks::<1>(bytes).map(|[b]| f64::from(b % 5)).collect(),
+        1 => chunks::<1>(bytes).map(|[b]| f64::from(b as i8)).collect(),
+        2 => chunks::<2>(bytes).map(|[m, e]| scaled(m, e)).collect(),
+        _ => chunks::<8>(bytes).map(f64::from_le_bytes).collect(),
+    };
+    weights.into_iter().chain(std::iter::repeat(0.0))
+}
+
+fn hidden(regular: &RegularTetrahedralization) -> Vec<([u64; 3], u64)> {
+    let place = |v: &VertexId| {
+        let weight = regular.weights()[v.index()] + 0.0;
+        (bits(regular.points()[v.index()]), weight.to_bits())
+    };
+    let mut hidden: Vec<_> = regular.hidden().iter().map(place).collect();
+    hidden.sort_unstable();
+    hidden
 }
 
 /// Insertions and removals end at what the points that are left make at once.
@@ -191,7 +250,7 @@ pub fn check_dynamic(bytes: &[u8]) {
 }
 
 fn sorted(tetrahedralization: &Tetrahedralization) -> Vec<[Option<[u64; 3]>; 4]> {
-    let mut tets = by_place(tetrahedralization);
+    let mut tets = by_place(tetrahedralization.tets(), tetrahedralization.points());
     for tet in &mut tets {
         tet.sort_unstable();
     }

@@ -68,7 +68,7 @@ pub use remesh::{
     improve, remesh,
 };
 pub use self_intersection::{count_self_intersections, self_intersections, triangles_intersect};
-pub use shapes::{icosphere, subdivide};
+pub use shapes::{cuboid, icosphere, subdivide};
 pub use signed_distance::{SignedDistance, SignedDistanceSample};
 pub use soup::{MeshView, TriangleSoup, VertexRemap};
 pub use split::{DropReason, OrientationPolicy, SplitOptions, SplitReport};

@@ -1,6 +1,6 @@
-//! Spheres from the icosahedron, and subdivision of any mesh.
+//! Spheres from the icosahedron, boxes, and subdivision of any mesh.
 
-use crate::{HalfEdgeId, MeshError, TriMesh, TriangleId};
+use crate::{HalfEdgeId, MeshError, TriMesh, TriangleId, TriangleSoup};
 use pellicle_geometry::{DVec3, VertexId};
 
 /// The icosahedron.
@@ -26,6 +26,42 @@ const ICOSAHEDRON: [[u32; 3]; 20] = [
     [8, 6, 7],
     [9, 8, 1],
 ];
+
+/// The sides of a box, counter-clockwise seen from outside; bits of a corner stand for the upper end along x, y and z.
+const SIDES: [[u32; 4]; 6] = [
+    [0, 2, 3, 1],
+    [4, 5, 7, 6],
+    [0, 1, 5, 4],
+    [2, 6, 7, 3],
+    [0, 4, 6, 2],
+    [1, 3, 7, 5],
+];
+
+/// The box from `min` to `max`: 8 vertices and 12 triangles. Vertex k has the coordinates of `max` along x, y, z where bits 0, 1,
+/// 2 of k are set, otherwise those of `min`.
+///
+/// Triangles are counter-clockwise seen from outside; clockwise where `max` is below `min` along one axis or along all three. The
+/// one error is [`MeshError::NotManifold`], of corners that are not finite.
+///
+/// ```
+/// use pellicle_geometry::DVec3;
+/// use pellicle_mesh::{cuboid, signed_volume};
+/// let slab = cuboid(DVec3::ZERO, DVec3::new(3.0, 2.0, 0.5))?;
+/// assert!(slab.is_closed());
+/// assert_eq!(signed_volume((&slab).into()), 3.0);
+/// # Ok::<(), pellicle_mesh::MeshError>(())
+/// ```
+pub fn cuboid(min: DVec3, max: DVec3) -> Result<TriMesh, MeshError> {
+    let corner = |k: u32| {
+        let end = |axis: usize| if k >> axis & 1 == 1 { max } else { min }[axis];
+        DVec3::new(end(0), end(1), end(2))
+    };
+    let halves = |[a, b, c, d]: [u32; 4]| [[a, b, c], [a, c, d]].map(|t| t.map(VertexId));
+    TriMesh::try_from(TriangleSoup {
+        positions: (0..8).map(corner).collect(),
+        triangles: SIDES.into_iter().flat_map(halves).collect(),
+    })
+}
 
 /// The unit sphere around the origin: the icosahedron, subdivided `levels` times, the points pushed onto the
 /// sphere after each. 10 · 4ᴸ + 2 vertices and 20 · 4ᴸ triangles for L levels: 12, 42, 162, 642, 2562, …

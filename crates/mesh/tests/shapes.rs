@@ -1,11 +1,12 @@
-//! Spheres and subdivision against what is known of them.
+//! Spheres, boxes and subdivision against what is known of them.
 
 mod common;
 
 use common::*;
 use pellicle_geometry::{DVec3, triangle};
 use pellicle_mesh::{
-    MeshError, SplitOptions, TriMesh, TriangleSoup, icosphere, signed_volume, subdivide, summarize,
+    MeshError, SplitOptions, TriMesh, TriangleSoup, cuboid, icosphere, signed_volume, subdivide,
+    summarize,
 };
 use proptest::prelude::*;
 use std::f64::consts::PI;
@@ -51,6 +52,37 @@ fn too_many_levels_are_refused() {
         let error = icosphere(levels).unwrap_err();
         assert!(matches!(error, MeshError::TooLarge { .. }), "{error}");
     }
+}
+
+proptest! {
+    #[test]
+    fn a_box_has_its_corners_sides_and_volume(
+        ends in proptest::array::uniform2(proptest::array::uniform3(-9..9_i8)),
+    ) {
+        let [min, max] = ends.map(|end| DVec3::from_array(end.map(f64::from)));
+        let mesh = cuboid(min, max).unwrap();
+        prop_assert!(mesh.is_closed());
+        prop_assert_eq!((mesh.positions()[0], mesh.positions()[7]), (min, max));
+        // Integers: no rounding. Negative where an odd number of axes is turned.
+        prop_assert_eq!(signed_volume((&mesh).into()), (max - min).element_product());
+        for t in mesh.triangle_ids() {
+            let [a, b, c] = mesh.corners(t);
+            let normal = triangle::double_area_normal(a, b, c);
+            let outward = normal.dot(2.0 * a - (min + max));
+            prop_assert_eq!(outward, (max - min).element_product());
+        }
+    }
+}
+
+#[test]
+fn a_box_of_any_finite_size_is_one() {
+    let huge = cuboid(DVec3::splat(-f64::MAX), DVec3::splat(f64::MAX)).unwrap();
+    assert_eq!(
+        huge.positions()[6],
+        DVec3::new(-f64::MAX, f64::MAX, f64::MAX)
+    );
+    let error = cuboid(DVec3::ZERO, DVec3::new(1.0, f64::NAN, 1.0)).unwrap_err();
+    assert!(matches!(error, MeshError::NotManifold { .. }), "{error}");
 }
 
 /// What [`subdivide`] promises, checked against the soup's own connectivity.

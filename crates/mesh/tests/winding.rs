@@ -1,7 +1,7 @@
 //! Winding numbers against solid angles, and on rays through edges and vertices.
 
 use pellicle_geometry::{DVec3, VertexId};
-use pellicle_mesh::{TriMesh, TriangleSoup, icosphere, winding_numbers};
+use pellicle_mesh::{TriMesh, TriangleSoup, cuboid, icosphere, winding_numbers};
 use proptest::prelude::*;
 
 /// The sum of the solid angles of the triangles over 4π (Van Oosterom and Strackee's formula).
@@ -82,23 +82,7 @@ proptest! {
 
 /// The unit cube, outward.
 fn cube() -> TriangleSoup {
-    let positions = (0..8).map(|i| glam::IVec3::new(i & 1, i >> 1 & 1, i >> 2).as_dvec3());
-    let faces = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    TriangleSoup {
-        positions: positions.collect(),
-        triangles: faces
-            .iter()
-            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-            .map(|t| t.map(VertexId))
-            .collect(),
-    }
+    cuboid(DVec3::ZERO, DVec3::ONE).unwrap().into_soup()
 }
 
 #[test]

@@ -36,26 +36,7 @@ fn copies(mesh: &TriMesh, shifts: &[DVec3]) -> TriangleSoup {
 
 /// The unit cube at the origin.
 fn cube() -> TriMesh {
-    let positions = (0..8_u32)
-        .map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)))
-        .collect();
-    let squares = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles = squares
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c].map(VertexId), [a, c, d].map(VertexId)])
-        .collect();
-    let soup = TriangleSoup {
-        positions,
-        triangles,
-    };
-    TriMesh::try_from(soup).unwrap()
+    pellicle_mesh::cuboid(DVec3::ZERO, DVec3::ONE).unwrap()
 }
 
 #[test]

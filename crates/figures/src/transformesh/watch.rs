@@ -2,7 +2,7 @@
 
 use crate::Error;
 use pellicle::glam::DVec2;
-use pellicle::mesh::TriangleId;
+use pellicle::mesh::{TriangleId, cuboid};
 use pellicle::prelude::*;
 use pellicle::transformesh::{Observer, Options, Piece, Report, Rule, Segment, repair_with};
 use std::collections::HashMap;
@@ -125,25 +125,8 @@ pub fn welded(soup: &TriangleSoup) -> TriangleSoup {
 
 /// The unit cube with a corner in the origin.
 pub fn cube() -> TriangleSoup {
-    let positions = (0..8_u32)
-        .map(|i| DVec3::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)))
-        .collect();
-    let squares = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles = squares
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c].map(VertexId), [a, c, d].map(VertexId)])
-        .collect();
-    TriangleSoup {
-        positions,
-        triangles,
-    }
+    let cube = cuboid(DVec3::ZERO, DVec3::ONE).expect("the corners are finite");
+    cube.into_soup()
 }
 
 /// The height of the tips of a double cone.

@@ -2,7 +2,7 @@
 #![allow(dead_code)]
 
 use pellicle_geometry::{DVec3, VertexId};
-use pellicle_mesh::{TriMesh, TriangleSoup};
+use pellicle_mesh::{TriMesh, TriangleSoup, cuboid};
 use std::f64::consts::TAU;
 
 pub fn soup(positions: Vec<DVec3>, triangles: &[[u32; 3]]) -> TriangleSoup {
@@ -20,22 +20,7 @@ pub fn mesh(soup: TriangleSoup) -> TriMesh {
 
 /// The unit cube, 12 triangles, counter-clockwise seen from outside.
 pub fn cube() -> TriangleSoup {
-    let positions = (0..8)
-        .map(|i| DVec3::new((i & 1) as f64, (i >> 1 & 1) as f64, (i >> 2) as f64))
-        .collect();
-    let quads = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    let triangles: Vec<[u32; 3]> = quads
-        .iter()
-        .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-        .collect();
-    soup(positions, &triangles)
+    cuboid(DVec3::ZERO, DVec3::ONE).unwrap().into_soup()
 }
 
 /// The tetrahedron (0, x, y, z).

@@ -279,23 +279,7 @@ pub fn inverted(mut soup: TriangleSoup) -> TriangleSoup {
 
 /// A box, outward, 12 triangles.
 pub fn cuboid(min: DVec3, max: DVec3) -> TriangleSoup {
-    let corner = |i: i32| glam::IVec3::new(i & 1, i >> 1 & 1, i >> 2).as_dvec3();
-    let faces = [
-        [0, 2, 3, 1],
-        [4, 5, 7, 6],
-        [0, 1, 5, 4],
-        [2, 6, 7, 3],
-        [0, 4, 6, 2],
-        [1, 3, 7, 5],
-    ];
-    TriangleSoup {
-        positions: (0..8).map(|i| min + (max - min) * corner(i)).collect(),
-        triangles: faces
-            .iter()
-            .flat_map(|&[a, b, c, d]| [[a, b, c], [a, c, d]])
-            .map(|t| t.map(VertexId))
-            .collect(),
-    }
+    pellicle_mesh::cuboid(min, max).unwrap().into_soup()
 }
 
 /// A tetrahedron of these corners; inside out if they are negatively oriented.
