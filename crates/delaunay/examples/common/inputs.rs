@@ -1,5 +1,6 @@
 //! The inputs that published timings use, from fixed seeds.
 
+use super::random::SplitMix;
 use pellicle_geometry::DVec3;
 
 /// What [`input`] can make.
@@ -24,7 +25,7 @@ pub fn input(kind: &str, count: usize) -> Option<Vec<DVec3>> {
                 d * (1.0 + 0.1 * bump)
             })
             .collect(),
-        "torus" => (0..count).map(|_| random.on_torus()).collect(),
+        "torus" => (0..count).map(|_| on_torus(&mut random)).collect(),
         "grid" => {
             let side = (count as f64).cbrt().round() as usize;
             let mut grid: Vec<DVec3> = (0..side.pow(3))
@@ -59,53 +60,14 @@ pub fn weights(kind: &str, count: usize) -> Option<Vec<f64>> {
     Some((0..count).map(|_| weight()).collect())
 }
 
-/// The SplitMix64 generator.
-pub struct SplitMix(pub u64);
-
-impl SplitMix {
-    /// 64 random bits.
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [0, 1), a multiple of 2⁻⁵³.
-    pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    /// Puts the items into a random order.
-    pub fn shuffle<T>(&mut self, items: &mut [T]) {
-        for i in (1..items.len()).rev() {
-            items.swap(i, (self.next() % (i as u64 + 1)) as usize);
-        }
-    }
-
-    fn in_cube(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit())
-    }
-
-    fn direction(&mut self) -> DVec3 {
-        loop {
-            let p = self.in_cube() * 2.0 - 1.0;
-            let square = p.length_squared();
-            if (1e-6..=1.0).contains(&square) {
-                return p / square.sqrt();
-            }
-        }
-    }
-
-    fn on_torus(&mut self) -> DVec3 {
-        loop {
-            let u = self.unit() * std::f64::consts::TAU;
-            let v = self.unit() * std::f64::consts::TAU;
-            let ring = 1.0 + 0.4 * v.cos();
-            if self.unit() * 1.4 <= ring {
-                return DVec3::new(ring * u.cos(), ring * u.sin(), 0.4 * v.sin());
-            }
+/// Uniform in area.
+fn on_torus(random: &mut SplitMix) -> DVec3 {
+    loop {
+        let u = random.unit() * std::f64::consts::TAU;
+        let v = random.unit() * std::f64::consts::TAU;
+        let ring = 1.0 + 0.4 * v.cos();
+        if random.unit() * 1.4 <= ring {
+            return DVec3::new(ring * u.cos(), ring * u.sin(), 0.4 * v.sin());
         }
     }
 }

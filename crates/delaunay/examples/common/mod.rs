@@ -2,6 +2,7 @@
 #![allow(dead_code)] // each example uses a part
 
 pub mod inputs;
+pub mod random;
 
 use pellicle_geometry::DVec3;
 use std::{

@@ -2,47 +2,10 @@
 
 use pellicle_geometry::DVec3;
 
-/// The SplitMix64 generator.
-pub struct Random(pub u64);
+#[path = "../../examples/common/random.rs"]
+mod random;
 
-impl Random {
-    pub fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in [0, 1).
-    pub fn unit(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 53) as f64
-    }
-
-    pub fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-
-    pub fn in_cube(&mut self) -> DVec3 {
-        DVec3::new(self.unit(), self.unit(), self.unit())
-    }
-
-    /// Of length one, uniform.
-    pub fn direction(&mut self) -> DVec3 {
-        loop {
-            let p = self.in_cube() * 2.0 - 1.0;
-            if (1e-6..=1.0).contains(&p.length_squared()) {
-                return p.normalize();
-            }
-        }
-    }
-
-    pub fn shuffle<T>(&mut self, items: &mut [T]) {
-        for i in (1..items.len()).rev() {
-            items.swap(i, self.below(i + 1));
-        }
-    }
-}
+pub use random::SplitMix as Random;
 
 /// So many points in equal steps; exactly on a line if start and step are small integers.
 pub fn collinear(count: usize, start: DVec3, step: DVec3) -> Vec<DVec3> {

@@ -361,7 +361,22 @@ impl Shown {
                 .outlined(Color::BLACK, 0.8)
                 .opacity(0.75),
         );
-        let tip = self.p + 0.95 * radius * self.pole_vector;
+        self.point_and_pole_vector(&mut scene, 0.95 * radius);
+        let low = self.boundary(self.cocone_direction(4.2, -1.0));
+        let label = Text::default().size(15.0).halo();
+        scene.words(low, "C_p", label.color(Color::BLUE).shift(0.0, 34.0));
+        for end in [1.0, -1.0] {
+            for side in [1.0, -1.0] {
+                let corner = side * self.right() + 0.9 * end * self.pole_vector;
+                scene.fit(self.p + 1.1 * radius * corner);
+            }
+        }
+        scene.panel(440.0, 460.0)
+    }
+
+    /// The point p, and the arrow v_p from it, so long.
+    fn point_and_pole_vector(&self, scene: &mut Scene, length: f64) {
+        let tip = self.p + length * self.pole_vector;
         scene.arrow_over(self.p, tip, Style::stroke(Color::VERMILION, 1.8));
         scene.dot_over(self.p, 3.5, Style::fill(Color::BLACK));
         let label = Text::default().size(15.0).halo();
@@ -378,15 +393,6 @@ impl Shown {
             "p",
             label.bold().anchor(Anchor::Start).shift(7.0, -5.0),
         );
-        let low = self.boundary(self.cocone_direction(4.2, -1.0));
-        scene.words(low, "C_p", label.color(Color::BLUE).shift(0.0, 34.0));
-        for end in [1.0, -1.0] {
-            for side in [1.0, -1.0] {
-                let corner = side * self.right() + 0.9 * end * self.pole_vector;
-                scene.fit(self.p + 1.1 * radius * corner);
-            }
-        }
-        scene.panel(440.0, 460.0)
     }
 
     fn triangles(
@@ -420,23 +426,7 @@ impl Shown {
             .copied()
             .collect();
         scene.line_over(&outline, Style::stroke(Color::BLACK, 1.2).dashed(4.0));
-        let tip = self.p + 2.0 * radius * self.pole_vector;
-        scene.arrow_over(self.p, tip, Style::stroke(Color::VERMILION, 1.8));
-        scene.dot_over(self.p, 3.5, Style::fill(Color::BLACK));
-        let label = Text::default().size(15.0).halo();
-        scene.words(
-            tip,
-            "v_p",
-            label
-                .color(Color::VERMILION)
-                .anchor(Anchor::Start)
-                .shift(8.0, 4.0),
-        );
-        scene.words(
-            self.p,
-            "p",
-            label.bold().anchor(Anchor::Start).shift(7.0, -5.0),
-        );
+        self.point_and_pole_vector(&mut scene, 2.0 * radius);
         scene.panel(380.0, 460.0)
     }
 }
