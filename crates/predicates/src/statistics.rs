@@ -50,8 +50,32 @@ pub enum Stage {
     Perturbation,
 }
 
-const PREDICATES: usize = 5;
-const STAGES: usize = 7;
+impl Predicate {
+    /// Every predicate.
+    pub const ALL: [Self; 5] = [
+        Self::Orient2d,
+        Self::Orient3d,
+        Self::InCircle,
+        Self::InSphere,
+        Self::PowerTest,
+    ];
+}
+
+impl Stage {
+    /// Every stage, in the order in which they are tried.
+    pub const ALL: [Self; 7] = [
+        Self::Static,
+        Self::SemiStatic,
+        Self::Lattice,
+        Self::FixedWidth,
+        Self::Interval,
+        Self::AnyWidth,
+        Self::Perturbation,
+    ];
+}
+
+const PREDICATES: usize = Predicate::ALL.len();
+const STAGES: usize = Stage::ALL.len();
 
 /// The number of calls by predicate and stage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

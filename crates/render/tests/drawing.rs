@@ -1,5 +1,8 @@
 //! What is shown on a mesh or on points: values, edges, marks, and nothing at all.
 
+mod common;
+
+use common::hash;
 use pellicle_geometry::{Aabb, DVec3, VertexId};
 use pellicle_mesh::{MeshView, TriangleId, TriangleSoup};
 use pellicle_render::{
@@ -628,16 +631,6 @@ fn threads_do_not_matter_and_the_bytes_are_known() {
     for threads in [2, 3, 8] {
         assert!(one == with(threads), "{threads}");
     }
-    // Fowler, Noll and Vo's hash; as in `render.rs`, look at a picture before a value is changed here.
-    let hash = |image: &Image| {
-        image
-            .pixels
-            .iter()
-            .flatten()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
-                (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-            })
-    };
     assert_eq!(
         one.each_ref().map(hash),
         [

@@ -1,5 +1,8 @@
 //! What a picture must show, checked on shapes whose pictures are known in closed form.
 
+mod common;
+
+use common::hash;
 use pellicle_geometry::{DVec3, VertexId};
 use pellicle_mesh::TriangleSoup;
 use pellicle_render::{
@@ -265,17 +268,6 @@ fn threads_do_not_matter_and_the_bytes_are_known() {
     };
     let (one, four) = (with(1), with(4));
     assert!(one == four);
-    // Fowler, Noll and Vo's hash. If a picture changes on purpose, look at it, then write the new value here; if it
-    // changes with the machine, something other than + − × ÷ √ has slipped in.
-    let hash = |image: &Image| {
-        image
-            .pixels
-            .iter()
-            .flatten()
-            .fold(0xcbf2_9ce4_8422_2325_u64, |hash, &byte| {
-                (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
-            })
-    };
     assert_eq!(
         one.each_ref().map(hash),
         [

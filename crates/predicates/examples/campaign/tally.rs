@@ -95,28 +95,13 @@ fn stages() -> String {
     use pellicle_predicates::statistics::{Predicate, Stage, snapshot};
     let counts = snapshot();
     let mut text = "\n| decided by".to_owned();
-    let stages = [
-        Stage::Static,
-        Stage::SemiStatic,
-        Stage::Lattice,
-        Stage::FixedWidth,
-        Stage::Interval,
-        Stage::AnyWidth,
-        Stage::Perturbation,
-    ];
-    for stage in stages {
+    for stage in Stage::ALL {
         let _ = write!(text, " | {stage:?}");
     }
     text += " |\n|---|---|---|---|---|---|---|---|\n";
-    for predicate in [
-        Predicate::Orient2d,
-        Predicate::Orient3d,
-        Predicate::InCircle,
-        Predicate::InSphere,
-        Predicate::PowerTest,
-    ] {
+    for predicate in Predicate::ALL {
         let _ = write!(text, "| {predicate:?}");
-        for stage in stages {
+        for stage in Stage::ALL {
             let _ = write!(text, " | {}", counts.of(predicate, stage));
         }
         text += " |\n";

@@ -201,15 +201,7 @@ proptest! {
         let p @ [a, b, c, d, e] = space(&points);
         let truth = oracle::sign(&oracle::insphere(p));
         let orientation = oracle::sign(&oracle::orient3d([a, b, c, d]));
-        for stage in [
-            Stage::Static,
-            Stage::SemiStatic,
-            Stage::Lattice,
-            Stage::FixedWidth,
-            Stage::Interval,
-            Stage::AnyWidth,
-            Stage::Perturbation,
-        ] {
+        for stage in Stage::ALL {
             prop_assert!(right(stages::insphere(stage, a, b, c, d, e), truth), "{stage:?}");
             prop_assert!(right(stages::orient3d(stage, a, b, c, d), orientation), "{stage:?}");
         }
