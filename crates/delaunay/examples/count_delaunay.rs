@@ -1,20 +1,23 @@
 //! Work for a profiler that counts: `valgrind --tool=callgrind --toggle-collect='*counted*' count_delaunay KIND COUNT WORK`.
 //!
-//! WORK is `tetrahedralize`, or in a tetrahedralisation of nine tenths of the points: `locate` the last tenth, `insert` it
+//! WORK is `tetrahedralize`, with their weights if the points have some, or in a tetrahedralisation of nine tenths of the points: `locate` the last tenth, `insert` it
 //! point by point, or `remove` it again. It happens inside of functions whose names begin with `counted`, on one thread. No
 //! clock is read, since counting tools stumble over how that is done. Prints how much there was to do.
 
 mod common;
 
 use common::{Arguments, Outcome, with_threads};
-use pellicle_delaunay::{DynamicTetrahedralization, Error, Options, tetrahedralize};
+use pellicle_delaunay::{
+    DynamicTetrahedralization, Error, Options, tetrahedralize, tetrahedralize_weighted,
+};
 use pellicle_geometry::{DVec3, VertexId};
 
 fn main() -> Outcome {
     let arguments = Arguments::of_process();
     let points = arguments.points()?;
+    let weights = arguments.weights(&points)?;
     let work = arguments.word(2).unwrap_or("tetrahedralize");
-    let done = with_threads(Some(1), || run(work, &points))??;
+    let done = with_threads(Some(1), || run(work, &points, weights.as_deref()))??;
     println!(
         "{}",
         done.ok_or("WORK is tetrahedralize, locate, insert or remove")?
@@ -22,9 +25,9 @@ fn main() -> Outcome {
     Ok(())
 }
 
-fn run(work: &str, points: &[DVec3]) -> Result<Option<usize>, Error> {
+fn run(work: &str, points: &[DVec3], weights: Option<&[f64]>) -> Result<Option<usize>, Error> {
     if work == "tetrahedralize" {
-        return counted_tetrahedralize(points).map(Some);
+        return counted_tetrahedralize(points, weights).map(Some);
     }
     let (most, last) = points.split_at(points.len() / 10 * 9);
     let mut there = DynamicTetrahedralization::of_points(most)?;
@@ -42,8 +45,12 @@ fn run(work: &str, points: &[DVec3]) -> Result<Option<usize>, Error> {
 }
 
 #[inline(never)]
-fn counted_tetrahedralize(points: &[DVec3]) -> Result<usize, Error> {
-    Ok(tetrahedralize(points, &Options::default())?.finite_count())
+fn counted_tetrahedralize(points: &[DVec3], weights: Option<&[f64]>) -> Result<usize, Error> {
+    let options = Options::default();
+    Ok(match weights {
+        None => tetrahedralize(points, &options)?.finite_count(),
+        Some(weights) => tetrahedralize_weighted(points, weights, &options)?.finite_count(),
+    })
 }
 
 #[inline(never)]

@@ -13,12 +13,13 @@ use std::process::Command;
 const NAME: &str = "instructions.json";
 
 /// Kind, count and work of `count_delaunay`.
-const WORKLOADS: [[&str; 3]; 11] = [
+const WORKLOADS: [[&str; 3]; 12] = [
     ["uniform", "20000", "tetrahedralize"],
     ["sphere", "20000", "tetrahedralize"],
     ["torus", "10000", "tetrahedralize"],
     ["grid", "19683", "tetrahedralize"],
     ["rounded", "20000", "tetrahedralize"],
+    ["weighted", "20000", "tetrahedralize"],
     ["uniform", "5000", "locate"],
     ["uniform", "5000", "insert"],
     ["uniform", "5000", "remove"],
