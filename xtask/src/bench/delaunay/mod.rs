@@ -76,7 +76,7 @@ pub fn run(root: &Path, words: &[&str]) -> Outcome {
     };
     if !arguments.inputs.is_empty() {
         let programs = Programs::build(root, &arguments)?;
-        record.about = programs.about();
+        record.about_programs(programs.about());
         for input in &arguments.inputs {
             let compared = compare(&programs, input, &arguments)?;
             eprintln!("{input}: {}", page::summary(&compared));

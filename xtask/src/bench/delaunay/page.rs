@@ -44,7 +44,7 @@ fn page(record: &Record) -> String {
 Made by `cargo xtask bench --delaunay`, which says in its usage how to measure other inputs; the figures are in
 `delaunay.json`. Inputs are made from seeds (`crates/delaunay/examples/common/inputs.rs`): *uniform* in a cube, *sphere* a
 bumpy one, *torus* with R = 1 and r = 0.4, *grid* a shuffled cube of integers, *rounded* a sphere of radius
-1000 rounded to integers.
+1000 rounded to integers, *weighted* uniform points with weights, of which regular tetrahedra are made.
 Programs run in turns, one after the other, on the same file of points; reading it is not counted.
 
 "

@@ -10,7 +10,7 @@ const NAME: &str = "delaunay.json";
 /// All inputs, and under which circumstances.
 #[derive(Debug, Default, PartialEq)]
 pub struct Record {
-    /// Lines about the machine, the compilers and the programs, of the last measurement.
+    /// Lines about the machine, the compilers and the programs, of the last measurement with each.
     pub about: Vec<String>,
     pub inputs: Vec<Compared>,
 }
@@ -80,6 +80,18 @@ impl Compared {
 }
 
 impl Record {
+    /// Takes in lines about this measurement; what is kept of earlier ones ran with the programs that it says.
+    pub fn about_programs(&mut self, lines: Vec<String>) {
+        let named =
+            |line: &str| -> String { line.chars().take_while(|c| c.is_alphanumeric()).collect() };
+        let kept = std::mem::replace(&mut self.about, lines);
+        for line in kept {
+            if self.about.iter().all(|new| named(new) != named(&line)) {
+                self.about.push(line);
+            }
+        }
+    }
+
     /// Puts an input in the place of its older measurement, or behind the others.
     pub fn put(&mut self, compared: Compared) {
         match self
@@ -155,6 +167,23 @@ mod tests {
         assert_eq!(record.inputs.len(), 2);
         assert_eq!(Record::of_json(&record.to_json()), Some(record));
         assert_eq!(Record::of_json(&json!({ "about": [] })), None);
+    }
+
+    #[test]
+    fn programs_that_do_not_run_again_stay_named() {
+        let lines = |lines: &[&str]| lines.iter().map(|line| (*line).to_owned()).collect();
+        let mut record = Record::default();
+        record.about_programs(lines(&["AMD, 2 cores", "CGAL 5.5", "HXT in gmsh: 4.1"]));
+        record.about_programs(lines(&["AMD, 4 cores", "CGAL: missing", "TetGen: missing"]));
+        assert_eq!(
+            record.about,
+            [
+                "AMD, 4 cores",
+                "CGAL: missing",
+                "TetGen: missing",
+                "HXT in gmsh: 4.1"
+            ]
+        );
     }
 
     #[test]
