@@ -1,6 +1,7 @@
 //! Which worker may touch which tetrahedra: slots belong together in blocks, and a block to one worker at a time.
 
 use crate::TetId;
+use prefetch_index::prefetch_index;
 use std::sync::atomic::{AtomicBool, AtomicU8, Ordering::*};
 
 /// Two to this power are the slots in a block: neighbours in space, mostly.
@@ -28,13 +29,11 @@ impl Blocks {
         self.wanted
             .resize_with(workers.max(self.wanted.len()), AtomicBool::default);
     }
-}
 
-impl Blocks {
     /// Says that who holds the tetrahedron's block will be asked for soon.
     #[inline(always)]
     pub(super) fn prefetch(&self, tet: TetId) {
-        prefetch_index::prefetch_index(&self.owners, tet.index() >> BLOCK_SHIFT);
+        prefetch_index(&self.owners, tet.index() >> BLOCK_SHIFT);
     }
 }
 
