@@ -27,6 +27,7 @@ fn by_kind(criterion: &mut Criterion) {
     alone.build_global().expect("nobody asked for threads yet");
     for kind in KINDS {
         let points = input(kind, COUNT).expect("every kind has points");
+        let weights = weights(kind, COUNT);
         let mut group = criterion.benchmark_group(kind);
         group.sample_size(10);
         group.throughput(Throughput::Elements(points.len() as u64));
@@ -36,14 +37,14 @@ fn by_kind(criterion: &mut Criterion) {
         group.bench_function("tetrahedralize", |bencher| {
             let options = Options::default();
             let points = black_box(&points);
-            match weights(kind, COUNT) {
+            match &weights {
                 None => bencher.iter(|| tetrahedralize(points, &options).map(drop)),
                 Some(weights) => {
-                    bencher.iter(|| tetrahedralize_weighted(points, &weights, &options).map(drop))
+                    bencher.iter(|| tetrahedralize_weighted(points, weights, &options).map(drop))
                 }
             }
         });
-        if weights(kind, COUNT).is_none() {
+        if weights.is_none() {
             stepwise(&mut group, &points);
         }
         group.finish();

@@ -12,13 +12,13 @@
 
 mod common;
 
-use common::{Arguments, Outcome, memory, spent, with_threads};
+use common::{Arguments, Outcome, memory, timed, with_threads};
 use pellicle_delaunay::{
     Error, FacetId, Options, RegularTetrahedralization, Tetrahedralization, tetrahedralize,
     tetrahedralize_weighted,
 };
 use pellicle_geometry::{DVec3, VertexId};
-use std::{fs, path::Path, time::Instant};
+use std::{fs, path::Path};
 
 fn main() -> Outcome {
     let arguments = Arguments::of_process();
@@ -29,15 +29,15 @@ fn main() -> Outcome {
     let weights = arguments.weights(&points)?;
     let weights = weights.as_deref();
     let threads = arguments.option("--threads").map(str::parse).transpose()?;
-    let (result, line) = with_threads(threads, || timed(&points, weights))?;
-    let tetrahedralization = result?;
+    let (result, line) = with_threads(threads, || measured(&points, weights))?;
+    let made = result?;
     println!("{line}");
     if let Some(file) = arguments.option("--dump") {
-        fs::write(file, sorted_set(&tetrahedralization))?;
+        fs::write(file, sorted_set(made.arrays()))?;
     }
     for threads in arguments.numbers("--identical")? {
         let other = with_threads(Some(threads), || measured_call(&points, weights))??;
-        if !is_identical(&tetrahedralization, &other) {
+        if made.arrays() != other.arrays() {
             return Err(format!("another result with {threads} threads").into());
         }
         println!("identical with {threads} threads");
@@ -46,20 +46,18 @@ fn main() -> Outcome {
 }
 
 /// The result, and the line about it.
-fn timed<'a>(points: &'a [DVec3], weights: Option<&'a [f64]>) -> (Result<Made<'a>, Error>, String) {
+fn measured<'a>(
+    points: &'a [DVec3],
+    weights: Option<&'a [f64]>,
+) -> (Result<Made<'a>, Error>, String) {
     let held = memory("VmRSS").unwrap_or(0);
-    let (wall, cpu) = (Instant::now(), spent());
-    let result = measured_call(points, weights);
-    let wall = wall.elapsed();
-    let cpu = spent()
-        .zip(cpu)
-        .map_or(wall, |(after, before)| after - before);
+    let (result, [cpu, wall]) = timed(|| measured_call(points, weights));
     let line = format!(
         "cpu={:.4} wall={:.4} points={} tetrahedra={} held={held} peak={}",
-        cpu.as_secs_f64(),
-        wall.as_secs_f64(),
+        cpu,
+        wall,
         points.len(),
-        result.as_ref().map_or(0, Made::finite_count),
+        result.as_ref().map_or(0, |made| made.arrays().finite),
         memory("VmHWM").unwrap_or(0),
     );
     (result, line)
@@ -82,52 +80,38 @@ enum Made<'a> {
 }
 
 impl Made<'_> {
-    fn tets(&self) -> &[[VertexId; 4]] {
+    fn arrays(&self) -> Arrays<'_> {
         match self {
-            Self::Delaunay(made) => made.tets(),
-            Self::Regular(made) => made.tets(),
-        }
-    }
-
-    fn twins(&self) -> &[[FacetId; 4]] {
-        match self {
-            Self::Delaunay(made) => made.twins(),
-            Self::Regular(made) => made.twins(),
-        }
-    }
-
-    fn finite_count(&self) -> usize {
-        match self {
-            Self::Delaunay(made) => made.finite_count(),
-            Self::Regular(made) => made.finite_count(),
-        }
-    }
-
-    fn duplicates(&self) -> &[(VertexId, VertexId)] {
-        match self {
-            Self::Delaunay(made) => made.duplicates(),
-            Self::Regular(made) => made.duplicates(),
-        }
-    }
-
-    fn hidden(&self) -> &[VertexId] {
-        match self {
-            Self::Delaunay(_) => &[],
-            Self::Regular(made) => made.hidden(),
+            Self::Delaunay(made) => Arrays {
+                tets: made.tets(),
+                twins: made.twins(),
+                finite: made.finite_count(),
+                duplicates: made.duplicates(),
+                hidden: &[],
+            },
+            Self::Regular(made) => Arrays {
+                tets: made.tets(),
+                twins: made.twins(),
+                finite: made.finite_count(),
+                duplicates: made.duplicates(),
+                hidden: made.hidden(),
+            },
         }
     }
 }
 
-fn is_identical(one: &Made, other: &Made) -> bool {
-    one.tets() == other.tets()
-        && one.twins() == other.twins()
-        && one.finite_count() == other.finite_count()
-        && one.duplicates() == other.duplicates()
-        && one.hidden() == other.hidden()
+/// All that must be the same for two results to be identical.
+#[derive(PartialEq)]
+struct Arrays<'a> {
+    tets: &'a [[VertexId; 4]],
+    twins: &'a [[FacetId; 4]],
+    finite: usize,
+    duplicates: &'a [(VertexId, VertexId)],
+    hidden: &'a [VertexId],
 }
 
-fn sorted_set(tetrahedralization: &Made) -> Vec<u8> {
-    let mut tets: Vec<[u32; 4]> = tetrahedralization.tets()[..tetrahedralization.finite_count()]
+fn sorted_set(arrays: Arrays) -> Vec<u8> {
+    let mut tets: Vec<[u32; 4]> = arrays.tets[..arrays.finite]
         .iter()
         .map(|tet| {
             let mut corners = tet.map(|v| v.0);

@@ -6,13 +6,10 @@
 
 mod common;
 
-use common::{Arguments, Outcome, random::SplitMix, spent};
+use common::{Arguments, Outcome, random::SplitMix, timed};
 use pellicle_delaunay::DynamicTetrahedralization;
 use pellicle_geometry::{DVec3, VertexId};
-use std::{
-    hint::black_box,
-    time::{Duration, Instant},
-};
+use std::hint::black_box;
 
 fn main() -> Outcome {
     let arguments = Arguments::of_process();
@@ -21,9 +18,9 @@ fn main() -> Outcome {
     let steps = arguments.word(2).map_or(Ok(100_000), str::parse)?;
     let mut random = SplitMix(12345 + count as u64);
 
-    let (made, taken) = timed(|| DynamicTetrahedralization::of_points(&points));
+    let (made, [taken, _]) = timed(|| DynamicTetrahedralization::of_points(&points));
     let mut dynamic = made?;
-    println!("{count} points: {:.2} s at once", taken.as_secs_f64());
+    println!("{count} points: {taken:.2} s at once");
 
     // New points beside vertices at random, at about a third of the distance to the next one.
     let anchors: Vec<VertexId> = (0..steps)
@@ -81,15 +78,7 @@ fn main() -> Outcome {
 
 /// Prints what the steps took.
 fn report(name: &str, steps: usize, work: impl FnOnce()) {
-    let ((), taken) = timed(work);
-    let each = taken.as_secs_f64() / steps.max(1) as f64;
+    let ((), [taken, _]) = timed(work);
+    let each = taken / steps.max(1) as f64;
     println!("{name:>20}: {:6.2} µs", each * 1e6);
-}
-
-/// What the work makes, and the time of the processor that it takes, or of the clock where the system does not tell.
-fn timed<T>(work: impl FnOnce() -> T) -> (T, Duration) {
-    let (clock, before) = (Instant::now(), spent());
-    let made = work();
-    let taken = spent().zip(before).map(|(after, before)| after - before);
-    (made, taken.unwrap_or_else(|| clock.elapsed()))
 }

@@ -1,7 +1,10 @@
 //! Winding numbers against solid angles, and on rays through edges and vertices.
 
+mod common;
+
+use common::cube;
 use pellicle_geometry::{DVec3, VertexId};
-use pellicle_mesh::{TriMesh, TriangleSoup, cuboid, icosphere, winding_numbers};
+use pellicle_mesh::{TriMesh, TriangleSoup, icosphere, winding_numbers};
 use proptest::prelude::*;
 
 /// The sum of the solid angles of the triangles over 4π (Van Oosterom and Strackee's formula).
@@ -78,11 +81,6 @@ proptest! {
             prop_assert_eq!(winding, inside.count() as i32, "{}", p);
         }
     }
-}
-
-/// The unit cube, outward.
-fn cube() -> TriangleSoup {
-    cuboid(DVec3::ZERO, DVec3::ONE).unwrap().into_soup()
 }
 
 #[test]

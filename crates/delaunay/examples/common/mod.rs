@@ -10,7 +10,7 @@ use std::{
     fs,
     io::{self, Read},
     path::Path,
-    time::Duration,
+    time::{Duration, Instant},
 };
 
 /// What `main` returns.
@@ -71,49 +71,58 @@ impl Arguments {
     }
 }
 
-/// Weights as little-endian doubles.
-pub fn read_weights(path: &Path) -> io::Result<Vec<f64>> {
-    let mut file = io::BufReader::new(fs::File::open(path)?);
-    let count = file.get_ref().metadata()?.len() / 8;
-    let mut weight = [0; 8];
-    let mut read = || {
-        file.read_exact(&mut weight)?;
-        Ok(f64::from_le_bytes(weight))
-    };
-    (0..count).map(|_| read()).collect()
-}
-
-/// Writes weights so that [`read_weights`] reads them.
-pub fn write_weights(path: &Path, weights: &[f64]) -> io::Result<()> {
-    let bytes: Vec<u8> = weights.iter().flat_map(|w| w.to_le_bytes()).collect();
-    fs::write(path, bytes)
-}
-
 /// Points as little-endian doubles, three each.
 pub fn read(path: &Path) -> io::Result<Vec<DVec3>> {
+    read_doubles(path, DVec3::from_array)
+}
+
+/// Weights as little-endian doubles.
+pub fn read_weights(path: &Path) -> io::Result<Vec<f64>> {
+    read_doubles(path, |[weight]| weight)
+}
+
+fn read_doubles<const N: usize, T>(path: &Path, of: impl Fn([f64; N]) -> T) -> io::Result<Vec<T>> {
     // Little by little: a large block, once freed, would let the allocator keep what it frees later, and the peak of what is
     // measured would be another.
     let mut file = io::BufReader::new(fs::File::open(path)?);
-    let count = file.get_ref().metadata()?.len() / 24;
-    let mut points = Vec::with_capacity(count as usize);
-    let mut point = [[0; 8]; 3];
+    let count = file.get_ref().metadata()?.len() / (8 * N as u64);
+    let mut all = Vec::with_capacity(count as usize);
+    let mut row = [[0; 8]; N];
     for _ in 0..count {
-        for eight in &mut point {
+        for eight in &mut row {
             file.read_exact(eight)?;
         }
-        points.push(DVec3::from_array(point.map(f64::from_le_bytes)));
+        all.push(of(row.map(f64::from_le_bytes)));
     }
-    Ok(points)
+    Ok(all)
 }
 
 /// Writes points so that [`read`] reads them.
 pub fn write(path: &Path, points: &[DVec3]) -> io::Result<()> {
-    let bytes: Vec<u8> = points
-        .iter()
-        .flat_map(|p| p.to_array())
-        .flat_map(f64::to_le_bytes)
-        .collect();
+    write_doubles(path, points.iter().flat_map(|p| p.to_array()))
+}
+
+/// Writes weights so that [`read_weights`] reads them.
+pub fn write_weights(path: &Path, weights: &[f64]) -> io::Result<()> {
+    write_doubles(path, weights.iter().copied())
+}
+
+fn write_doubles(path: &Path, doubles: impl Iterator<Item = f64>) -> io::Result<()> {
+    let bytes: Vec<u8> = doubles.flat_map(f64::to_le_bytes).collect();
     fs::write(path, bytes)
+}
+
+/// What a task makes, and the seconds of the processor and of the clock that it takes; the clock's twice where the system does
+/// not tell the processor's.
+pub fn timed<T>(task: impl FnOnce() -> T) -> (T, [f64; 2]) {
+    let (clock, before) = (Instant::now(), spent());
+    let made = task();
+    let wall = clock.elapsed();
+    let cpu = spent().zip(before).map(|(after, before)| after - before);
+    (
+        made,
+        [cpu.unwrap_or(wall), wall].map(|time| time.as_secs_f64()),
+    )
 }
 
 /// Runs a task with so many threads at its disposal, or with all there are.

@@ -20,15 +20,7 @@ impl StaticFilter {
     ) -> FourVerdicts {
         self.check(&corners);
         self.check(&opposite);
-        let bounds = AcrossBounds {
-            of_box: self.insphere,
-            of_orientations: self.orient3d,
-            half_unit: self.half_unit_of_insphere,
-            factor: INSPHERE,
-            least: TINY,
-            most: HUGE,
-            most_weight: HUGE_WEIGHT,
-        };
+        let bounds = self.across_bounds(self.insphere, INSPHERE, self.half_unit_of_insphere);
         lanes::insphere_across(registers, corners, opposite, p, at_infinity, bounds)
     }
 
@@ -69,16 +61,21 @@ impl StaticFilter {
             self.check(&points.map(|(point, _)| point));
             self.check_weights(&points.map(|(_, weight)| weight));
         }
-        let bounds = AcrossBounds {
-            of_box: self.power_test,
+        let bounds = self.across_bounds(self.power_test, POWER_TEST, 0.0);
+        lanes::power_test_across(registers, corners, opposite, p, at_infinity, bounds)
+    }
+
+    #[inline(always)]
+    fn across_bounds(&self, of_box: f64, factor: f64, half_unit: f64) -> AcrossBounds {
+        AcrossBounds {
+            of_box,
             of_orientations: self.orient3d,
-            half_unit: 0.0,
-            factor: POWER_TEST,
+            half_unit,
+            factor,
             least: TINY,
             most: HUGE,
             most_weight: HUGE_WEIGHT,
-        };
-        lanes::power_test_across(registers, corners, opposite, p, at_infinity, bounds)
+        }
     }
 
     /// On which side of the four facets of the positive tetrahedron `corners` the point `p` lies, as far as the filter can

@@ -15,51 +15,34 @@ use proptest::prelude::*;
 /// The corners of the neighbours, as the table in `lanes` has them.
 const NEIGHBORS: [[usize; 3]; 4] = [[3, 1, 2], [2, 0, 3], [3, 0, 1], [1, 0, 2]];
 
-struct Across {
+/// Four tests, of points or of points with weights.
+struct Across<P> {
     filter: StaticFilter,
-    corners: [DVec3; 4],
-    opposite: [DVec3; 4],
-    p: DVec3,
+    corners: [P; 4],
+    opposite: [P; 4],
+    p: P,
     at_infinity: AtInfinity,
 }
 
-impl Vectorized for Across {
+impl Vectorized for Across<DVec3> {
     type Output = FourVerdicts;
 
     #[inline(always)]
     fn run<R: Registers>(self, registers: R) -> FourVerdicts {
-        let Self {
-            filter,
-            corners,
-            opposite,
-            p,
-            at_infinity,
-        } = self;
-        filter.insphere_across(registers, corners, opposite, p, at_infinity)
+        let (corners, opposite) = (self.corners, self.opposite);
+        let filter = self.filter;
+        filter.insphere_across(registers, corners, opposite, self.p, self.at_infinity)
     }
 }
 
-struct PowerAcross {
-    filter: StaticFilter,
-    corners: [(DVec3, f64); 4],
-    opposite: [(DVec3, f64); 4],
-    p: (DVec3, f64),
-    at_infinity: AtInfinity,
-}
-
-impl Vectorized for PowerAcross {
+impl Vectorized for Across<(DVec3, f64)> {
     type Output = FourVerdicts;
 
     #[inline(always)]
     fn run<R: Registers>(self, registers: R) -> FourVerdicts {
-        let Self {
-            filter,
-            corners,
-            opposite,
-            p,
-            at_infinity,
-        } = self;
-        filter.power_test_across(registers, corners, opposite, p, at_infinity)
+        let (corners, opposite) = (self.corners, self.opposite);
+        let filter = self.filter;
+        filter.power_test_across(registers, corners, opposite, self.p, self.at_infinity)
     }
 }
 
@@ -194,7 +177,7 @@ proptest! {
         let greatest = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let filter = filter(&[a, b, c, d, e, q]).with_weights(least, greatest);
         let p = (e, we);
-        let across = || PowerAcross { filter, corners, opposite, p, at_infinity };
+        let across = || Across { filter, corners, opposite, p, at_infinity };
         let verdicts = vectorized(across());
         prop_assert_eq!(verdicts, across().run(Plain));
         for (i, neighbor) in NEIGHBORS.into_iter().enumerate() {
@@ -230,7 +213,7 @@ proptest! {
             _ => opposite[heavy - 4].1 = weight,
         }
         let filter = filter(&[a, b, c, q, d, p]).with_weights(0.0, weight);
-        let across = || PowerAcross {
+        let across = || Across {
             filter,
             corners,
             opposite,

@@ -17,7 +17,6 @@ mod record;
 mod runs;
 mod sets;
 
-use super::measured;
 use crate::Outcome;
 use arguments::Arguments;
 use programs::{Program, Programs};
@@ -120,13 +119,9 @@ fn compare(programs: &Programs, input: &str, arguments: &Arguments) -> Result<Co
 
     // 2. The same tetrahedra as CGAL's.
     let peers = first.points <= MOST_FOR_PEERS;
-    if let Some(cgal) = programs.cgal.as_ref().filter(|_| peers) {
+    if let Some(cgal) = programs.cgal().filter(|_| peers) {
         let theirs = path("cgal");
-        let option = weights.map(|weights| [Path::new("--weights"), weights]);
-        let words = option.into_iter().flatten().chain([&*points, &*theirs]);
-        let words: Vec<_> = words.map(Path::to_string_lossy).collect();
-        let words: Vec<&str> = words.iter().map(|word| &**word).collect();
-        measured::run(cgal, &words)?;
+        cgal.run(&points, weights, &[&theirs.to_string_lossy()], LIMIT)?;
         let difference = sets::compare(&points, &ours, &theirs)?;
         if !difference.is_empty() {
             eprintln!("{input}: {difference:?}");
@@ -155,7 +150,7 @@ fn compare(programs: &Programs, input: &str, arguments: &Arguments) -> Result<Co
         .timed
         .iter()
         .filter(|program| peers || program.is_ours)
-        .filter(|program| weights.is_none() || program.weighs)
+        .filter(|program| weights.is_none() || program.weighs())
         .collect();
     compared.runs = in_turns(&runnable, &points, weights, arguments.rounds);
     remove(&points);
@@ -179,7 +174,7 @@ fn in_turns(
                 continue;
             }
             let run = program
-                .run(points, weights, LIMIT)
+                .run(points, weights, &[], LIMIT)
                 .and_then(|made| Ok((Run::read(&made.output)?, made.peak_bytes)));
             match run {
                 Ok((run, peak)) => runs.add(&run, peak),

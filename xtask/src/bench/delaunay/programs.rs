@@ -22,18 +22,22 @@ pub struct Program {
     pub name: &'static str,
     pub threads: usize,
     pub is_ours: bool,
-    /// Whether it knows points with weights.
-    pub weighs: bool,
     program: PathBuf,
     words: Vec<String>,
 }
 
 impl Program {
-    /// Runs it on the points of this file, with the weights of the other.
+    /// Whether it knows points with weights.
+    pub fn weighs(&self) -> bool {
+        self.words.iter().any(|word| word == WEIGHTS)
+    }
+
+    /// Runs it on the points of this file, with the weights of the other, and with more words behind.
     pub fn run(
         &self,
         points: &Path,
         weights: Option<&Path>,
+        more: &[&str],
         limit: Duration,
     ) -> Result<Measured, String> {
         let points = points.to_string_lossy();
@@ -48,6 +52,7 @@ impl Program {
                 (WEIGHTS, None) => Vec::new(),
                 (word, _) => vec![word],
             })
+            .chain(more.iter().copied())
             .collect();
         measured::run_within(limit, &[], &self.program, &words)
     }
@@ -68,8 +73,6 @@ pub struct Programs {
     pub scratch: PathBuf,
     /// In the order in which they take turns.
     pub timed: Vec<Program>,
-    /// CGAL's, which can dump its tetrahedra.
-    pub cgal: Option<PathBuf>,
     ours: PathBuf,
     checker: PathBuf,
     about: Vec<String>,
@@ -91,7 +94,6 @@ impl Programs {
                 .iter()
                 .map(|&threads| our_program(example(ours), threads))
                 .collect(),
-            cgal: None,
             ours: example(ours),
             checker: example(checker),
             about: vec![crate::bench::machine()],
@@ -100,6 +102,11 @@ impl Programs {
         programs.find_cgal(root, arguments);
         programs.find_by_python(root, arguments);
         Ok(programs)
+    }
+
+    /// CGAL's, which dumps its tetrahedra into a file that is named behind the points.
+    pub fn cgal(&self) -> Option<&Program> {
+        self.timed.iter().find(|program| program.name == "CGAL")
     }
 
     /// The machine, and each program's version, or that it is missing.
@@ -146,12 +153,10 @@ impl Programs {
                 self.about.push(format!(
                     "CGAL {version}: Delaunay_triangulation_3 and Regular_triangulation_3, exact predicates and inexact constructions, -O3, one thread"
                 ));
-                self.cgal = Some(program.clone());
                 self.timed.push(Program {
                     name: "CGAL",
                     threads: 1,
                     is_ours: false,
-                    weighs: true,
                     program,
                     words: [WEIGHTS, POINTS].map(str::to_owned).into(),
                 });
@@ -189,7 +194,6 @@ impl Programs {
                     name,
                     threads,
                     is_ours: false,
-                    weighs: false,
                     program: python.clone(),
                     words: vec![script.clone(), POINTS.into(), threads.to_string()],
                 });
@@ -204,7 +208,6 @@ fn our_program(program: PathBuf, threads: usize) -> Program {
         name: OURS,
         threads,
         is_ours: true,
-        weighs: true,
         program,
         words: words.map(str::to_owned).into(),
     }
